@@ -105,6 +105,7 @@ private:
   std::string whyNotMeasured(Values& values);
   TargetRun runTarget(const Values& values, sim::World& world, bool probeOn, const verify::Record* source,
                       ShownRun* shown = nullptr);
+  void runAtBounds(const verify::Case& drawn, CaseResult& result);
   void addFinding(CaseResult& result, const verify::Difference& difference, const Values& values) const;
   void noteEndless(const verify::Case& drawn);
   void noteStopped(const TargetRun& ran, const verify::Case& drawn);

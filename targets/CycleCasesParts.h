@@ -38,6 +38,8 @@ public:
   Questions(CaseRunner& runner, const Values& values, sim::World& world, bool probeOn)
       : runner_(runner), values_(values), world_(world), probeOn_(probeOn) {}
   Ran with(const std::string& field, double value) override;
+  bool prints(const std::string& field, const std::vector<double>& values) override;
+  bool takesNoOffset(const std::string& name, double value) override;
   Ran from(const verify::Entry& entry) override;
   Ran disturbed(const verify::Interference& interference) override;
   void elsewhere(const verify::PartError& more, double grown,

@@ -1,6 +1,7 @@
 // What the source does with other values than those of a case, and what its caller has in force.
 #include "targets/CycleCasesParts.h"
 #include "targets/Stage.h"
+#include "verify/Callers.h"
 #include "verify/PathPieces.h"
 #include "verify/Random.h"
 
@@ -96,6 +97,7 @@ SourceQuestions::Ran CaseRunner::Questions::play(const std::string& field, doubl
     return out;
   }
   if (!runner_.readPosted(*now)) return out;
+  out.losesDigits = now->losesDigits;
   now->part = values_.part;
   now->caller = callerStream(values_.drawn);
   verify::Entry entry = runner_.entryOf(*now, probeOn_);
@@ -107,6 +109,29 @@ SourceQuestions::Ran CaseRunner::Questions::play(const std::string& field, doubl
 
 SourceQuestions::Ran CaseRunner::Questions::with(const std::string& field, double value) {
   return values_.posted ? play(field, value, verify::Stand::Way::Run) : Ran{};
+}
+
+bool CaseRunner::Questions::prints(const std::string& field, const std::vector<double>& values) {
+  const auto same = [](const frontend::compost::PostedLine& one, const frontend::compost::PostedLine& other) {
+    return one.text == other.text;
+  };
+  return values_.posted && std::any_of(values.begin(), values.end(), [&](double value) {
+    verify::Case other = values_.drawn;
+    other.values[field] = value;
+    const std::unique_ptr<Values> now = runner_.check(other, false);
+    return now && !now->rejected && runner_.post(*now) &&
+           !std::equal(now->lines.begin(), now->lines.end(), values_.lines.begin(), values_.lines.end(), same);
+  });
+}
+
+bool CaseRunner::Questions::takesNoOffset(const std::string& name, double value) {
+  if (!values_.posted) return false;
+  verify::Case other = values_.drawn;
+  (other.hosts.contains(name) ? other.hosts : other.values)[name] = value;
+  const std::unique_ptr<Values> now = runner_.check(other, false);
+  if (!now || now->rejected || !runner_.readPosted(*now)) return false;
+  return verify::takesNoOffset(now->posted->file.programs.front(), *runner_.inputs_->sourceControl) &&
+         !verify::takesNoOffset(values_.posted->file.programs.front(), *runner_.inputs_->sourceControl);
 }
 
 bool CaseRunner::Questions::rejectsSome(const std::string& name) {

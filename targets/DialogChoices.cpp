@@ -100,9 +100,15 @@ bool takesNoOther(ir::Kind kind, const std::vector<double>& offered) {
          (kind != ir::Kind::WorkOffset || values.size() != kSystems);
 }
 
-std::optional<double> besideList(const verify::DrawField& field) {
-  if (!takesNoOther(field.kind, field.choices)) return std::nullopt;
-  return *std::max_element(field.choices.begin(), field.choices.end()) + 1;
+std::vector<double> besideList(const verify::DrawField& field) {
+  if (!takesNoOther(field.kind, field.choices)) return {};
+  const auto [least, most] = std::minmax_element(field.choices.begin(), field.choices.end());
+  std::vector<double> out = {*most + 1, *least - 1};
+  const double between = *least + 0.5;
+  if (between < *most &&
+      std::find(field.choices.begin(), field.choices.end(), between) == field.choices.end())
+    out.push_back(between);
+  return out;
 }
 
 std::string whyNotOffered(const std::vector<verify::DrawField>& fields, const verify::Case& drawn) {

@@ -8,7 +8,6 @@
 #include "verify/Draw.h"
 
 #include <map>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,8 +32,9 @@ std::vector<DialogChoice> choicesOfType(std::string_view type);
 // A parameter of this kind takes no other value than these, which its dialog offers: those of a list, unless
 // it offers all six work systems, each of which is asked of the program anyway. A check box offers 0 and 1.
 bool takesNoOther(ir::Kind kind, const std::vector<double>& offered);
-// A value that the list of the field does not offer. nullopt: it takes others.
-std::optional<double> besideList(const verify::DrawField& field);
+// Values that the list of the field does not offer: above it, below it, and between two that it offers. None:
+// it takes others.
+std::vector<double> besideList(const verify::DrawField& field);
 // The first value of the case that the list of its field does not offer, as the alarm says it; "": there is
 // none.
 std::string whyNotOffered(const std::vector<verify::DrawField>& fields, const verify::Case& drawn);

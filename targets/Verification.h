@@ -37,9 +37,15 @@ public:
   struct Ran {
     Answer answer = Answer::None;
     verify::Record record; // of Runs
+    // The post prints fewer digits of some value than it has: the run is that of another one.
+    bool losesDigits = false;
   };
   // `name`: of a field or a host input.
   virtual Ran with(const std::string& name, double value) = 0;
+  // The source's program is another one with some of the values, though it may move alike.
+  virtual bool prints(const std::string& /*field*/, const std::vector<double>& /*values*/) { return false; }
+  // With it the source takes a tool's length from an offset that is not above 0 (`G43 H0`).
+  virtual bool takesNoOffset(const std::string& /*name*/, double /*value*/) { return false; }
   // The values of the case, called from another state.
   virtual Ran from(const verify::Entry& entry) = 0;
   // The values of the case, where bare skip moves find something else.

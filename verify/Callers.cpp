@@ -1,5 +1,6 @@
 #include "verify/Callers.h"
 
+#include "ir/Match.h"
 #include "support/Decimal.h"
 #include "verify/Random.h"
 
@@ -46,6 +47,15 @@ bool asksForShift(const Control& control) {
          asked(control, Function::ScalingOn, Function::ScalingOff) != Asked::No;
 }
 
+// A G code of this function.
+bool isCode(const ir::Word& word, const Control& control, Function function) {
+  const double* code = word.address == 'G' ? ir::constantValue(word.value) : nullptr;
+  const bool known = code != nullptr && *code >= 0 && *code < 1000;
+  const CodeInfo* info =
+      known ? control.find('G', static_cast<std::uint32_t>(std::lround(*code * 10))) : nullptr;
+  return info != nullptr && info->function == function;
+}
+
 // Groups that a bare code puts back, whatever has changed them.
 std::set<std::uint32_t> restored(const Control& control) {
   std::set<std::uint32_t> out;
@@ -75,8 +85,11 @@ std::string callerModes(const Control& control, std::uint64_t stream) {
   return out + "\n";
 }
 
-std::vector<BrokenCaller> brokenCallers(const Control& control, bool shiftOfZ) {
+std::vector<BrokenCaller> brokenCallers(const Control& control, bool shiftOfZ,
+                                        const std::map<char, double>& starts) {
   std::vector<BrokenCaller> out;
+  constexpr std::uint32_t kBeforeSystems = 530, kAfterSystems = 600;
+  constexpr double kShift = 3, kBeside = 0.02; // mm
   // A code in force that the program can ask for.
   const auto inForce = [&](const CodeInfo* code, std::string alarm) {
     if (code == nullptr || !code->group) return;
@@ -86,8 +99,11 @@ std::vector<BrokenCaller> brokenCallers(const Control& control, bool shiftOfZ) {
     caller.modal.emplace_back(static_cast<std::uint32_t>(*code->group), code->tenths);
     out.push_back(std::move(caller));
   };
+  // Each code of the function, as a program may ask for one of them alone.
   const auto wrong = [&](Function right, Function other, const char* alarm) {
-    if (tellsGroup(control, right)) inForce(control.find(other), alarm);
+    if (!tellsGroup(control, right)) return;
+    for (const CodeInfo& code : control.codes)
+      if (code.function == other && code.group == control.find(right)->group) inForce(&code, alarm);
   };
   wrong(Function::Metric, Function::Inch, "NOT METRIC");
   // What is only assumed to exist is asked for by itself.
@@ -100,6 +116,7 @@ std::vector<BrokenCaller> brokenCallers(const Control& control, bool shiftOfZ) {
   wrong(Function::CutterCompOff, Function::CutterCompLeft, "CUTTER COMPENSATION ON");
   wrong(Function::CutterCompOff, Function::CutterCompRight, "CUTTER COMPENSATION ON");
   wrong(Function::CannedCycleOff, Function::CannedCycle, "CANNED CYCLE ACTIVE");
+  wrong(Function::CannedCycleOff, Function::BackBoring, "CANNED CYCLE ACTIVE");
   if (tellsGroup(control, Function::ToolLengthOff)) {
     inForce(control.find(Function::ToolLengthOff), "TOOL LENGTH NOT ACTIVE");
     out.back().ofToolLength = true;
@@ -109,32 +126,69 @@ std::vector<BrokenCaller> brokenCallers(const Control& control, bool shiftOfZ) {
     CodeInfo other = *extended;
     other.group = control.find(Function::WorkSystem)->group;
     inForce(&other, "G54 TO G59 NOT ACTIVE");
+    // What the group says besides, whichever code that is.
+    for (const std::uint32_t tenths : {kBeforeSystems, kAfterSystems}) {
+      other.tenths = tenths;
+      inForce(&other, "G54 TO G59 NOT ACTIVE");
+      out.back().who = fmt::format("where #{} is {}", *control.variables.modalFirst + *other.group,
+                                   numberText(tenths / 10.0));
+    }
   }
+  // Where the position is asked for as well, it is what that has to be.
+  const auto from = [](char axis, double by) {
+    return sim::Point3{axis == 'X' ? by : 0, axis == 'Y' ? by : 0, axis == 'Z' ? by : 0};
+  };
+  for (const auto& [axis, at] : starts)
+    if (control.variables.blockEnd)
+      for (const double by : {kBeside, -kBeside}) {
+        BrokenCaller& caller = out.emplace_back();
+        caller.who = fmt::format("from {}{}", axis, numberText(at + by));
+        caller.alarm = fmt::format("START NOT AT {}{}", axis, numberText(at));
+        caller.away = from(axis, by);
+      }
   if (!asksForShift(control)) return out;
   const CodeInfo* shift = control.find(Function::LocalShift);
   for (const char axis : {'X', 'Y', 'Z'}) {
     if (axis == 'Z' && !shiftOfZ) continue;
     BrokenCaller caller;
-    caller.who = fmt::format("after G{} {}3.", numberText(shift->tenths / 10.0), axis);
+    caller.who = fmt::format("after G{} {}{}.", numberText(shift->tenths / 10.0), axis, kShift);
     caller.alarm = "LOCAL SHIFT ACTIVE";
-    caller.blocks = fmt::format("G{}{}3.\n", numberText(shift->tenths / 10.0), axis);
+    caller.blocks = fmt::format("G{}{}{}.\n", numberText(shift->tenths / 10.0), axis, kShift);
+    caller.away = from(axis, kShift);
     out.push_back(std::move(caller));
   }
   return out;
 }
 
 bool hasCode(const ir::Program& program, const Control& control, Function function) {
-  const auto isIt = [&](const ir::Word& word) {
-    const double* code = word.address == 'G' ? ir::constantValue(word.value) : nullptr;
-    const bool known = code != nullptr && *code >= 0 && *code < 1000;
-    const CodeInfo* info =
-        known ? control.find('G', static_cast<std::uint32_t>(std::lround(*code * 10))) : nullptr;
-    return info != nullptr && info->function == function;
-  };
+  const auto isIt = [&](const ir::Word& word) { return isCode(word, control, function); };
   return std::any_of(program.body.begin(), program.body.end(), [&](const ir::ProgramStatement& statement) {
     const auto* block = std::get_if<ir::NcBlock>(&statement.node);
     return block != nullptr && std::any_of(block->words.begin(), block->words.end(), isIt);
   });
+}
+
+bool takesNoOffset(const ir::Program& program, const Control& control) {
+  for (const ir::ProgramStatement& statement : program.body) {
+    const bool jumps = ir::match(
+        statement,
+        [](const ir::OneOf<ir::Jump, ir::Branch, ir::JumpTo, ir::Loop, ir::LoopEnd, ir::Exit,
+                           ir::Raise> auto&) { return true; },
+        [](const ir::OneOf<ir::Label, ir::Store, ir::Comment, ir::NcBlock, ir::Call, ir::Notice, ir::Port,
+                           ir::Print, ir::NameVariables> auto&) { return false; });
+    if (jumps) return false;
+    const auto* block = std::get_if<ir::NcBlock>(&statement.node);
+    if (block == nullptr) continue;
+    const auto takes = [&](const ir::Word& word) { return isCode(word, control, Function::ToolLengthPlus); };
+    const auto none = [](const ir::Word& word) {
+      const double* number = word.address == 'H' ? ir::constantValue(word.value) : nullptr;
+      return number != nullptr && *number <= 0;
+    };
+    if (std::any_of(block->words.begin(), block->words.end(), takes) &&
+        std::any_of(block->words.begin(), block->words.end(), none))
+      return true;
+  }
+  return false;
 }
 
 std::vector<OtherCaller> otherCallers(const ir::Program& posted, const Control& control, const Entry& entry,

@@ -9,6 +9,7 @@
 #include "verify/Stand.h"
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,10 +27,13 @@ struct BrokenCaller {
   // For Entry: `blocks` and `modal`.
   std::string blocks;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> modal;
+  sim::Point3 away = {}; // of his place beside Entry::start; with a shift his coordinates are the same
   bool ofToolLength = false; // not demanded by a program that puts a length in force itself
 };
 // `shiftOfZ`: the program writes an offset along Z by itself, so no shift of Z may be in force either.
-std::vector<BrokenCaller> brokenCallers(const stdlib::Control& control, bool shiftOfZ);
+// `starts`: where it has to be called, by axis, where that is fixed.
+std::vector<BrokenCaller> brokenCallers(const stdlib::Control& control, bool shiftOfZ,
+                                        const std::map<char, double>& starts = {});
 
 // A caller who has another work system or tool length in force than the program selects for itself, in the
 // same place: the program runs as it does under the one that it selects.
@@ -46,6 +50,10 @@ std::vector<OtherCaller> otherCallers(const ir::Program& posted, const stdlib::C
 std::vector<OtherCaller> otherModes(const stdlib::Control& control, const Entry& entry);
 // Some block has a G code of this function.
 bool hasCode(const ir::Program& program, const stdlib::Control& control, stdlib::Function function);
+
+// It comes, without a jump before, to a block that takes a tool's length (G43) from an offset that is not
+// above 0.
+bool takesNoOffset(const ir::Program& program, const stdlib::Control& control);
 
 // Modal groups that the program has to leave as it found them, and F; "" or what it leaves otherwise.
 // `source`: what the original leaves, which counts for groups that no bare code puts back; nullptr: nothing.

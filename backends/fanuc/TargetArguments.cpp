@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <iterator>
 
 namespace dotek::targets {
 
@@ -151,6 +152,53 @@ void FanucVerification::callAtBounds(const OutputArgument& argument, const verif
   }
 }
 
+void FanucVerification::callWithNoOffset(const OutputArgument& argument, const TargetCase& now,
+                                         const verify::Entry& entry, TargetRun& out) {
+  constexpr std::string_view kAlarm = "TOOL OFFSET NOT ABOVE 0";
+  const verify::DrawField* const field = fieldOf(argument.name);
+  const std::string& name = field == nullptr ? argument.name : field->name;
+  const std::uint32_t local = stdlib::localOf(argument.letter);
+  constexpr double kNone[] = {0, -1};
+  const auto takes = [&](double value) { return now.questions->takesNoOffset(name, value); };
+  if (std::none_of(std::begin(kNone), std::end(kNone), takes)) return;
+  for (const double value : kNone) {
+    // A picture may print nothing for 0.
+    if (!takes(value) && now.questions->with(name, value).answer != SourceQuestions::Answer::None) continue;
+    verify::Entry other = entry;
+    std::erase_if(other.variables, [&](const auto& one) { return one.first == local; });
+    other.variables.emplace_back(local, value);
+    const verify::Record record = runText(now, other, nullptr);
+    const bool moves = std::any_of(record.pieces.begin(), record.pieces.end(), [](const verify::Piece& one) {
+      return one.frame.system != 0 && one.frame.toolLength == 0;
+    });
+    if (moves || record.ending != verify::Ending::Alarm || record.alarm < kOwnAlarms || record.text.empty() ||
+        !kAlarm.starts_with(record.text))
+      differs(fmt::format("with {} {}", argument.letter, numberText(value)),
+              fmt::format("`{}` has to stop it before it takes the tool's length", kAlarm), record, out);
+  }
+}
+
+void FanucVerification::callWithTools(const verify::DrawField& field, const TargetCase& now,
+                                      const verify::Entry& entry, TargetRun& out) {
+  const auto argument =
+      std::find_if(translation_.arguments.begin(), translation_.arguments.end(),
+                   [&](const auto& one) { return gibbs::foldCase(one.name) == gibbs::foldCase(field.name); });
+  if (argument == translation_.arguments.end()) return;
+  const std::uint32_t local = stdlib::localOf(argument->letter);
+  for (const double value : {0.0, control_.variables.toolCount + 1.0, 1.5}) {
+    const SourceQuestions::Ran meant = now.questions->with(field.name, value);
+    if (meant.answer == SourceQuestions::Answer::Runs && meant.record.ending == verify::Ending::Finished)
+      continue;
+    verify::Entry other = entry;
+    std::erase_if(other.variables, [&](const auto& one) { return one.first == local; });
+    other.variables.emplace_back(local, value);
+    const verify::Record record = runText(now, other, nullptr);
+    if (record.ending != verify::Ending::Alarm || record.alarm < kOwnAlarms || setsSomething(record, other))
+      differs(fmt::format("with {} {}", argument->letter, numberText(value)),
+              "an alarm of its own has to stop it before anything is set, it is no tool offset", record, out);
+  }
+}
+
 std::string FanucVerification::endingOf(const verify::Record& record) {
   return record.ending == verify::Ending::Finished ? "runs to its end"
                                                    : fmt::format("stops with `{}`", record.text);
@@ -168,8 +216,10 @@ void FanucVerification::callWithSystems(const verify::DrawField& field, const Ta
   callWithActive(field, argument->letter, now, entry, out);
   for (const double value : {first - 1, first + 6, first + 0.5}) {
     const SourceQuestions::Ran meant = now.questions->with(field.name, value);
-    // What the source takes is no fault of the translation.
-    if (meant.answer == SourceQuestions::Answer::Runs && meant.record.ending == verify::Ending::Finished)
+    // What the source takes is no fault of the translation, but where it is another value by the time that a
+    // macro gets it.
+    if (meant.answer == SourceQuestions::Answer::Runs && meant.record.ending == verify::Ending::Finished &&
+        !(meant.losesDigits && setsByCall(now, field.systemOf(drawn->second))))
       continue;
     verify::Entry other = entry;
     const std::uint32_t local = stdlib::localOf(argument->letter);
@@ -180,6 +230,16 @@ void FanucVerification::callWithSystems(const verify::DrawField& field, const Ta
       differs(fmt::format("with {} {}", argument->letter, numberText(value)),
               "an alarm has to stop it before anything moves, it is no work offset", record, out);
   }
+}
+
+bool FanucVerification::setsByCall(const TargetCase& now, std::uint32_t system) {
+  if (now.source == nullptr) return false;
+  const auto& measures = now.source->measures;
+  return std::any_of(measures.begin(), measures.end(), [system](const verify::Measure& one) {
+    return one.program != 0 && std::any_of(one.datums.begin(), one.datums.end(), [system](const auto& datum) {
+             return datum.first.first == system;
+           });
+  });
 }
 
 void FanucVerification::callWithActive(const verify::DrawField& field, char letter, const TargetCase& now,
@@ -204,20 +264,24 @@ void FanucVerification::callWithActive(const verify::DrawField& field, char lett
 }
 void FanucVerification::callBesideList(const verify::DrawField& field, const TargetCase& now,
                                        const verify::Entry& entry, TargetRun& out) {
-  const std::optional<double> value = besideList(field);
+  const std::vector<double> values = besideList(field);
   const auto argument =
       std::find_if(translation_.arguments.begin(), translation_.arguments.end(),
                    [&](const auto& one) { return gibbs::foldCase(one.name) == gibbs::foldCase(field.name); });
-  if (!value || argument == translation_.arguments.end() || !now.questions->moves(field.name)) return;
-  verify::Entry other = entry;
+  if (values.empty() || argument == translation_.arguments.end() ||
+      !(now.questions->moves(field.name) || now.questions->prints(field.name, field.choices)))
+    return;
   const std::uint32_t local = stdlib::localOf(argument->letter);
-  std::erase_if(other.variables, [&](const auto& one) { return one.first == local; });
-  other.variables.emplace_back(local, *value);
-  const verify::Record record = runText(now, other, nullptr);
-  if (!stopsAtOnce(record, other, ""))
-    differs(fmt::format("with {} {}", argument->letter, numberText(*value)),
-            "an alarm has to stop it before anything moves, the dialog's list does not offer it", record,
-            out);
+  for (const double value : values) {
+    verify::Entry other = entry;
+    std::erase_if(other.variables, [&](const auto& one) { return one.first == local; });
+    other.variables.emplace_back(local, value);
+    const verify::Record record = runText(now, other, nullptr);
+    if (!stopsAtOnce(record, other, ""))
+      differs(fmt::format("with {} {}", argument->letter, numberText(value)),
+              "an alarm has to stop it before anything moves, the dialog's list does not offer it", record,
+              out);
+  }
 }
 
 } // namespace dotek::targets

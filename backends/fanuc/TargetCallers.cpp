@@ -9,6 +9,7 @@
 #include "targets/OffParts.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -60,15 +61,13 @@ void FanucVerification::callOtherwise(const TargetCase& now, const verify::Entry
   if (const std::string why = whyListsOther(translation_.text); !why.empty())
     out.differs(verify::Aspect::Ending, why);
   const bool writesZ = ran.ownOffsetOfZ && (now.source == nullptr || !now.source->ownOffsetOfZ);
-  for (const verify::BrokenCaller& caller : verify::brokenCallers(control_, writesZ)) {
+  for (const verify::BrokenCaller& caller : verify::brokenCallers(control_, writesZ, fixedStarts())) {
     if (caller.ofToolLength && loadsTool(now)) continue;
     verify::Entry broken = entry;
+    broken.start = entry.start + caller.away;
     broken.blocks = caller.blocks;
     broken.modal = caller.modal;
     const verify::Record record = runText(now, broken, nullptr);
-    // A shift moves the start as well, where that is fixed.
-    if (!caller.blocks.empty() && stopsAtOnce(record, broken, "") && record.text.starts_with("START NOT AT"))
-      continue;
     if (!stopsAtOnce(record, broken, caller.alarm))
       differs(caller.who, fmt::format("`{}` has to stop it before anything moves", caller.alarm), record,
               out);
@@ -88,10 +87,15 @@ void FanucVerification::callOtherwise(const TargetCase& now, const verify::Entry
         out);
   for (const OutputArgument& argument : translation_.arguments)
     if (!now.questions->maySkip(argument.name)) callWithout(argument, now, entry, out);
+  for (const OutputArgument& argument : translation_.arguments)
+    callWithNoOffset(argument, now, entry, out);
   for (const verify::DrawField& field : from_.plan.fields)
     if (field.kind == ir::Kind::WorkOffset && !field.fixed) callWithSystems(field, now, entry, out);
   for (const verify::DrawField& field : from_.plan.fields)
     if (!field.fixed) callBesideList(field, now, entry, out);
+  for (const verify::DrawField& field : from_.plan.fields)
+    if (from_.plan.cycleFile && field.kind == ir::Kind::ToolOffset && !field.fixed)
+      callWithTools(field, now, entry, out);
 }
 
 void FanucVerification::callFromOthers(const TargetCase& now, const verify::Entry& entry, TargetRun& out) {
@@ -123,6 +127,15 @@ void FanucVerification::callFromOthers(const TargetCase& now, const verify::Entr
     noteCaller(other.who);
     out.differs(verify::Aspect::Modal, why);
   }
+}
+
+std::map<char, double> FanucVerification::fixedStarts() const {
+  std::map<char, double> out;
+  if (from_.plan.cycleFile) return out; // it has no such input
+  for (const char axis : {'x', 'y', 'z'})
+    if (const auto at = from_.inputs.hosts.find(std::string("start_") + axis); at != from_.inputs.hosts.end())
+      out.emplace(static_cast<char>(std::toupper(axis)), at->second);
+  return out;
 }
 
 bool FanucVerification::comparesExactly() const {

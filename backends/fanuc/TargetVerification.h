@@ -7,6 +7,7 @@
 #include "targets/Stage.h"
 #include "verify/Callers.h"
 
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -56,6 +57,8 @@ private:
                      TargetRun& out);
   // From the same place, with another work system or tool length in force than the source selects.
   void callFromOthers(const TargetCase& now, const verify::Entry& entry, TargetRun& out);
+  // Where convert has the program ask for its start, by axis.
+  std::map<char, double> fixedStarts() const;
   bool comparesExactly() const;
   bool loadsTool(const TargetCase& now) const;
   const verify::DrawField* fieldOf(const std::string& name) const;
@@ -67,6 +70,12 @@ private:
   // that is left out and stays null has no default to be another one.
   void compareDefault(const OutputArgument& argument, double value, const verify::Entry& without,
                       const verify::Record& ran, const TargetCase& now, TargetRun& out);
+  // Where `G43 H` takes the argument: an offset that is not above 0 has to be an alarm before it is taken.
+  void callWithNoOffset(const OutputArgument& argument, const TargetCase& now, const verify::Entry& entry,
+                        TargetRun& out);
+  // Of a cycle: beside the tool offsets that the control has, and between two of them.
+  void callWithTools(const verify::DrawField& field, const TargetCase& now, const verify::Entry& entry,
+                     TargetRun& out);
   // Where a check that reads the argument turns, and a step beside it: it does the same with the default
   // given.
   void callAtBounds(const OutputArgument& argument, const verify::DrawField& field, double value,
@@ -75,9 +84,11 @@ private:
   // Beside the six work systems, and between two of them.
   void callWithSystems(const verify::DrawField& field, const TargetCase& now, const verify::Entry& entry,
                        TargetRun& out);
-  // A value that the list of the dialog does not offer: an alarm.
+  // Values that the list of the dialog does not offer: an alarm each.
   void callBesideList(const verify::DrawField& field, const TargetCase& now, const verify::Entry& entry,
                       TargetRun& out);
+  // A macro that the source calls has set this system.
+  static bool setsByCall(const TargetCase& now, std::uint32_t system);
   // The system that is in force: what comes after is moved by what was set.
   void callWithActive(const verify::DrawField& field, char letter, const TargetCase& now,
                       const verify::Entry& entry, TargetRun& out);

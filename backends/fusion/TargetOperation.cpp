@@ -188,10 +188,12 @@ void OperationDemands::runWithoutSense(const TargetCase& now, TargetRun& out) {
       demandError(now, field.name, input, fmt::format("a half as `{}`", field.name), out,
                   " is no whole number");
     }
-    if (const auto beside = besideList(field); beside && now.questions->moves(field.name)) {
-      property->second = *beside;
-      demandError(now, field.name, input, fmt::format("{} as `{}`", numberText(*beside), field.name), out);
-    }
+    const std::vector<double> others = besideList(field);
+    if (!others.empty() && now.questions->moves(field.name))
+      for (const double beside : others) {
+        property->second = beside;
+        demandError(now, field.name, input, fmt::format("{} as `{}`", numberText(beside), field.name), out);
+      }
     if (field.kind == ir::Kind::WorkOffset && !sameSet_)
       for (const double system : {field.firstSystem - 1, field.firstSystem + 6}) {
         property->second = system;

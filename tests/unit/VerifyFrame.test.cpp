@@ -23,7 +23,8 @@ struct Source {
 void take(const Source& source, targets::TranslationOptions& out, const std::string& to) {
   const std::string examples = (root() / "examples").string() + "/";
   out.inputs = {examples + source.folder};
-  out.source.prog = examples + source.prog;
+  out.source.prog = *source.prog == '/' ? source.prog : examples + source.prog;
+  out.source.form = "thesis-a";
   out.to = to;
   out.probeMacros = source.macros;
   out.common.scriptProgram = runningProgram();
@@ -132,10 +133,39 @@ TEST_CASE("verify calls a program by those who break what it demands") {
                             "CANNED CYCLE ACTIVE", "TOOL LENGTH NOT ACTIVE", "LOCAL SHIFT ACTIVE"})
     damages.push_back({alarm, "", "", std::string("`") + alarm + "` has to stop it before anything moves"});
   damages.push_back({"WORK OFFSET NOT 54 TO 59", "", "", "called with S 54.5"});
+  damages.push_back({"#4014 LT 54.", "", "", "called where #4014 is 53: `G54 TO G59 NOT ACTIVE`"});
+  damages.push_back({"#4014 GT 59.", "", "", "called where #4014 is 60: `G54 TO G59 NOT ACTIVE`"});
+  damages.push_back({"NE FIX[#4014]", "", "", "called with G54.1 in force"});
+  damages.push_back({"#4009 NE 80.", "NE 80.", "EQ 73.", "called with G74 in force"});
   check(kFace, damages);
   // Along Z where the program writes an offset of Z by itself.
   check({"surface-z", "mill-post.txt", "dotek", "20", "20"},
         {{"ABS[#5023", "", "", "called after G52 Z3.: `LOCAL SHIFT ACTIVE` has to stop it"}});
+}
+
+TEST_CASE("verify calls a program from beside the start that it was converted for") {
+  check({"surface-z", "mill-post.txt", "easyprobe", "20", "20"},
+        {{"START NOT AT X20", "", "", "called from X20.02: `START NOT AT X20` has to stop it"},
+         {"START NOT AT Y20", "", "", "called from Y20.02: `START NOT AT Y20` has to stop it"},
+         {"ABS[#5021", "", "", "called after G52 X3.: `LOCAL SHIFT ACTIVE` has to stop it"},
+         {"ABS[#5022", "", "", "called after G52 Y3.: `LOCAL SHIFT ACTIVE` has to stop it"}});
+}
+
+TEST_CASE("verify calls a program with a tool offset that is none") {
+  const TestFolder scratch("dotek-verify-offset");
+  const std::string post = readAll(root() / "examples/post.txt");
+  const std::string prog = scratch.write(
+      "post.txt", replaced(post, " SeqC ' M31' EOL\n", " SeqC ' M31' EOL\n SeqC ' G43 H'ToolOffset# EOL\n"));
+  check({"surface-x", prog.c_str(), "easyprobe"},
+        {{"TOOL OFFSET NOT ABOVE 0", "", "", "called with B 0: `TOOL OFFSET NOT ABOVE 0` has to stop it"},
+         {"TOOL OFFSET NOT ABOVE 0", "LE 0.", "LT 0.", "called with B 0"},
+         {"TOOL OFFSET NOT ABOVE 0", "LE 0.", "EQ 0.", "called with B -1"}});
+}
+
+TEST_CASE("verify calls a program at each value where a check of the dialog turns") {
+  check(kFace, {{"THE TRAVEL IS NOT LONGER)", "", "", "called with X"},
+                {"THE RETRACT HEIGHT LIES)", "", "", "the dialog rejects the values, and the program moves"},
+                {"ABS[#24] LE", "LE", "LT", "called with X"}});
 }
 
 TEST_CASE("verify sees what is read or written while the axes still move") {
