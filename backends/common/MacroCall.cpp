@@ -2,9 +2,9 @@
 
 #include "ir/Fold.h"
 #include "ir/Linear.h"
+#include "stdlib/SearchTravel.h"
 
 #include <algorithm>
-#include <type_traits>
 
 namespace dotek::backends {
 
@@ -32,17 +32,16 @@ const stdlib::MacroArgument* placeOf(const stdlib::MacroSignature& signature, co
   return found == signature.arguments.end() ? nullptr : &*found;
 }
 
-// The macro takes a travel and no overtravel, and the source a place: the travel is its whole search.
-bool isWholeSearch(const stdlib::MacroSignature& signature, const stdlib::MacroArgument& argument,
-                   ir::Frame source) {
-  return signature.intent == stdlib::Intent::Surface && argument.role == stdlib::ArgumentRole::Target &&
-         argument.frame == ir::Frame::Here && source != ir::Frame::Here &&
-         signature.find(stdlib::ArgumentRole::Overtravel) == nullptr;
-}
-
 } // namespace
 
+bool isNoTravel(const ir::ExpressionPtr& travel) {
+  const ir::ExpressionPtr simple = ir::simplify(travel);
+  const double* known = ir::constantValue(simple);
+  return known != nullptr && *known == 0;
+}
+
 ir::ExpressionPtr longerTravel(const ir::ExpressionPtr& travel, const ir::ExpressionPtr& more) {
+  if (isNoTravel(travel)) return travel;
   if (const double* known = ir::constantValue(ir::simplify(travel)))
     return ir::simplify(
         ir::binary(*known < 0 ? ir::BinaryOp::Subtract : ir::BinaryOp::Add, travel, more, travel->range));
@@ -72,15 +71,50 @@ ir::ExpressionPtr searchedBeyond(const ir::CallCycle& cycle, ir::Axis axis, cons
   return given != nullptr ? given->value : beyondOf(values, axis);
 }
 
+// Where the surface is expected, of a target that the statement states; nothing: it states none.
+std::optional<ir::Frame> targetFrame(const ir::Measure& measure, const stdlib::MacroArgument& /*argument*/) {
+  return measure.target ? std::optional(measure.target->frame) : std::nullopt;
+}
+std::optional<ir::Frame> targetFrame(const ir::CallCycle& cycle, const stdlib::MacroArgument& argument) {
+  const ir::CycleArgument* given = find(cycle, stdlib::parameterName(argument));
+  return given == nullptr ? std::nullopt : given->frame;
+}
+std::optional<ir::Frame> targetFrame(const ir::Move& /*move*/, const stdlib::MacroArgument& /*argument*/) {
+  return std::nullopt;
+}
+
+ir::ExpressionPtr searchedBeyond(const ir::Measure& /*measure*/, ir::Axis axis, const CallValues& values) {
+  return beyondOf(values, axis);
+}
+ir::ExpressionPtr searchedBeyond(const ir::Move& /*move*/, ir::Axis axis, const CallValues& values) {
+  return beyondOf(values, axis);
+}
+
+// The travel is the macro's whole search, and what the source states leads to the surface alone.
+template <class Node>
+bool isWholeSearch(const stdlib::MacroSignature& signature, const stdlib::MacroArgument& argument,
+                   const Node& node, const CallValues& values) {
+  const std::optional<ir::Frame> frame = targetFrame(node, argument);
+  return frame && (*frame != ir::Frame::Here || values.travelsToSurface) &&
+         stdlib::travelIsSearch(signature, argument);
+}
+
+// `to`: the travel to where the surface is expected.
+template <class Node>
+ir::ExpressionPtr searchOf(const stdlib::MacroSignature& signature, const stdlib::MacroArgument& argument,
+                           const Node& node, const CallValues& values, const ir::ExpressionPtr& to) {
+  if (to == nullptr || !isWholeSearch(signature, argument, node, values)) return to;
+  const ir::ExpressionPtr beyond = searchedBeyond(node, argument.axis, values);
+  return beyond == nullptr ? to : longerTravel(to, beyond);
+}
+
 ir::ExpressionPtr valueOf(const stdlib::MacroSignature& signature, const stdlib::MacroArgument& argument,
                           const ir::Measure& measure, const CallValues& values) {
   switch (argument.role) {
   case stdlib::ArgumentRole::Target: {
     if (!measure.target) return nullptr;
-    const ir::ExpressionPtr out = values.place(*measure.target, argument.axis, argument.frame);
-    const ir::ExpressionPtr beyond =
-        isWholeSearch(signature, argument, measure.target->frame) ? beyondOf(values, argument.axis) : nullptr;
-    return out == nullptr || beyond == nullptr ? out : longerTravel(out, beyond);
+    return searchOf(signature, argument, measure, values,
+                    values.place(*measure.target, argument.axis, argument.frame));
   }
   case stdlib::ArgumentRole::Diameter: return measure.diameter;
   case stdlib::ArgumentRole::Overtravel: return values.overtravel ? values.overtravel() : nullptr;
@@ -111,30 +145,9 @@ ir::ExpressionPtr valueOf(const stdlib::MacroSignature& signature, const stdlib:
     return argument.role == stdlib::ArgumentRole::Overtravel && values.overtravel ? values.overtravel()
                                                                                   : nullptr;
   if (!given->frame) return given->value;
-  const ir::ExpressionPtr out =
-      values.place(ir::Coordinate{given->value, *given->frame, nullptr}, argument.axis, argument.frame);
-  const ir::ExpressionPtr beyond = isWholeSearch(signature, argument, *given->frame)
-                                       ? searchedBeyond(cycle, argument.axis, values)
-                                       : nullptr;
-  return out == nullptr || beyond == nullptr ? out : longerTravel(out, beyond);
-}
-
-// Of the target of a surface.
-template <class Node> bool searchKnown(const Node& node, ir::Axis axis, const CallValues& values) {
-  if constexpr (std::is_same_v<Node, ir::CallCycle>)
-    return searchedBeyond(node, axis, values) != nullptr;
-  else
-    return beyondOf(values, axis) != nullptr;
-}
-template <class Node>
-std::optional<ir::Frame> targetFrame(const Node& node, const stdlib::MacroArgument& argument) {
-  if constexpr (std::is_same_v<Node, ir::Measure>)
-    return node.target ? std::optional(node.target->frame) : std::nullopt;
-  else if constexpr (std::is_same_v<Node, ir::CallCycle>) {
-    const ir::CycleArgument* given = find(node, stdlib::parameterName(argument));
-    return given == nullptr ? std::nullopt : given->frame;
-  } else
-    return std::nullopt;
+  return searchOf(
+      signature, argument, cycle, values,
+      values.place(ir::Coordinate{given->value, *given->frame, nullptr}, argument.axis, argument.frame));
 }
 
 template <class Node>
@@ -142,11 +155,12 @@ MacroCall callOf(const stdlib::MacroSignature& signature, const Node& node, cons
   MacroCall out;
   out.signature = &signature;
   for (const stdlib::MacroArgument& argument : signature.arguments) {
-    const auto frame = targetFrame(node, argument);
-    if (values.beyond && frame && isWholeSearch(signature, argument, *frame) &&
-        !searchKnown(node, argument.axis, values))
+    const bool search = isWholeSearch(signature, argument, node, values);
+    if (search && values.beyond && searchedBeyond(node, argument.axis, values) == nullptr)
       out.endsAtSurface = true;
-    if (ir::ExpressionPtr value = valueOf(signature, argument, node, values))
+    ir::ExpressionPtr value = valueOf(signature, argument, node, values);
+    out.hasNoWay = out.hasNoWay || (search && value != nullptr && isNoTravel(value));
+    if (value != nullptr)
       out.arguments.push_back({&argument, std::move(value)});
     else if (argument.required)
       out.missing.push_back(&argument);
@@ -254,10 +268,8 @@ MacroCall macroCall(const stdlib::MacroSignature& signature, const ir::CallCycle
   MacroCall out = callOf(signature, cycle, values);
   const std::string overtravel(stdlib::roleName(stdlib::ArgumentRole::Overtravel));
   const bool inTravel =
-      std::any_of(signature.arguments.begin(), signature.arguments.end(), [&](const auto& argument) {
-        const auto frame = targetFrame(cycle, argument);
-        return frame && isWholeSearch(signature, argument, *frame);
-      });
+      std::any_of(signature.arguments.begin(), signature.arguments.end(),
+                  [&](const auto& argument) { return isWholeSearch(signature, argument, cycle, values); });
   for (const ir::CycleArgument& given : cycle.arguments)
     if (placeOf(signature, given.parameter) == nullptr && !(inTravel && given.parameter == overtravel))
       out.notTaken.push_back(given.parameter);

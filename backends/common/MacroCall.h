@@ -47,13 +47,17 @@ struct CallValues {
   // How far the source searches beyond what it expects along the axis where the statement does not say;
   // nullptr or empty: not known. A macro that takes a travel and no overtravel travels that much farther.
   std::function<ir::ExpressionPtr(ir::Axis axis)> beyond = {};
+  // A travel of the source leads to where the surface is expected, as its places do.
+  bool travelsToSurface = false;
   bool setsSystem = true; // the call itself sets the offset of the measurement
 };
 
 // Overtravel of calls that state none; nullptr: not known, or there is no set.
 ir::ExpressionPtr overtravelOf(const stdlib::MacroSet* macros, ir::Axis axis);
 
-// `travel`, made longer by `more` in its own direction.
+// Known to be 0: it says no direction.
+bool isNoTravel(const ir::ExpressionPtr& travel);
+// `travel`, made longer by `more` in its own direction, where it has one.
 ir::ExpressionPtr longerTravel(const ir::ExpressionPtr& travel, const ir::ExpressionPtr& more);
 
 struct GivenArgument {
@@ -66,8 +70,12 @@ struct MacroCall {
   std::vector<GivenArgument> arguments;                   // in the order of the signature
   std::vector<const stdlib::MacroArgument*> missing = {}; // required, and the statement states no value
   std::vector<std::string> notTaken = {};                 // parameters that the macro has no letter for
+  bool hasNoWay = false;      // the surface is expected where the probe is: which way it lies is not known
   bool endsAtSurface = false; // it searches no farther than to where the surface is expected
 };
+
+// What of MacroCall::hasNoWay a set has no call for.
+inline constexpr std::string_view kNoWay = "a surface where the probe is, as a travel of 0 has no direction";
 
 MacroCall macroCall(const stdlib::MacroSignature& signature, const ir::Measure& measure,
                     const CallValues& values);
@@ -79,9 +87,11 @@ MacroCall macroCall(const stdlib::MacroSignature& signature, const ir::Move& mov
 // An axis that the move names and the protected move of the set does not take; nothing: it takes all.
 std::optional<ir::Axis> axisNotTaken(const stdlib::MacroSignature& signature, const ir::Move& move);
 
-// Reports the first argument that the call lacks. `state` has refuse<Id>(range, arguments...).
+// Reports the first argument that the call lacks, or that it has no way. `state` has refuse<Id>(range,
+// arguments...).
 template <class State>
 void refuseMissing(State& state, const stdlib::MacroSet& macros, const MacroCall& call, SourceRange range) {
+  if (call.hasNoWay) state.template refuse<diag::MacroSetCannot>(range, macros.title, kNoWay);
   if (call.missing.empty()) return;
   const stdlib::MacroArgument& argument = *call.missing.front();
   const std::string letter(1, argument.letter);

@@ -74,8 +74,17 @@ CallValues valuesFor(State& state, const ir::Origin& origin) {
     const ir::ExpressionPtr work = place(state, coordinate, axis, ir::Frame::Work, range);
     return work == nullptr ? nullptr : ir::binary(ir::BinaryOp::Subtract, work, now, work->range);
   };
-  if (state.options.source != nullptr)
+  if (state.options.source != nullptr) {
     out.beyond = [&state](ir::Axis axis) { return overtravelOf(state.options.source, axis); };
+    return out;
+  }
+  // A cycle states surfaces; how far is searched beyond them is a value of the machine.
+  out.travelsToSurface = true;
+  out.beyond = [&state](ir::Axis axis) {
+    const auto given = state.options.fixed.find("overtravel");
+    return given != state.options.fixed.end() ? ir::constant(given->second)
+                                              : overtravelOf(&state.macros, axis);
+  };
   return out;
 }
 

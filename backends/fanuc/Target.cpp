@@ -9,6 +9,7 @@
 #include "ir/Positions.h"
 #include "ir/ShareVariables.h"
 #include "ir/Walk.h"
+#include "stdlib/SearchTravel.h"
 #include "support/messages/Commands.h"
 #include "support/messages/Cycle.h"
 #include "support/messages/Fanuc.h"
@@ -78,6 +79,14 @@ public:
     for (const char* place : {"start_x", "start_y", "start_z"}) {
       if (const auto given = inputs.hosts.find(place); given != inputs.hosts.end()) emit.fixed.insert(*given);
     }
+    const bool travels =
+        std::any_of(macros->signatures.begin(), macros->signatures.end(), [](const auto& one) {
+          return std::any_of(one.arguments.begin(), one.arguments.end(),
+                             [&](const auto& argument) { return stdlib::travelIsSearch(one, argument); });
+        });
+    if (const auto given = inputs.hosts.find("overtravel");
+        ofLanguage && travels && given != inputs.hosts.end())
+      emit.fixed.insert(*given);
     std::vector<fanuc::Argument> letters;
     const auto lines = written(lowered.cycle, emit, ofLanguage, letters);
     if (!lines) return true;

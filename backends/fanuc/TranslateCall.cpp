@@ -3,6 +3,7 @@
 #include "backends/common/MacroCall.h"
 #include "ir/Linear.h"
 #include "stdlib/ReadCall.h"
+#include "stdlib/SearchTravel.h"
 #include "support/Decimal.h"
 
 #include <algorithm>
@@ -216,6 +217,11 @@ private:
     present(value, from.letter);
     if (from.frame == ir::Frame::Work) {
       const ir::ExpressionPtr beyond = travelsFar() ? searchedBeyond(from.axis) : nullptr;
+      if (beyond != nullptr && isNoTravel(minus(value, here))) {
+        refuse(fmt::format("the surface of {} is expected where the probe is, so its travel has no direction",
+                           title()));
+        return value;
+      }
       if (beyond != nullptr) {
         note(fmt::format("`{}` of `{}` is the greatest travel: it ends as far beyond the expected surface as "
                          "`{}` searches",
@@ -231,14 +237,11 @@ private:
     return plus(here, value);
   }
 
-  // The target macro takes a travel and no overtravel, and the source's a place.
+  // The target's travel is its whole search, and the source's call states a place.
   bool travelsFar() const {
-    const auto frameOf = [&](const MacroSignature& signature) -> std::optional<ir::Frame> {
-      const MacroArgument* argument = signature.find(ArgumentRole::Target, measuredAxis(signature));
-      return argument == nullptr ? std::nullopt : std::optional(argument->frame);
-    };
-    return from_->intent == Intent::Surface && frameOf(*from_) == ir::Frame::Work &&
-           frameOf(*to_) == ir::Frame::Here && to_->find(ArgumentRole::Overtravel) == nullptr;
+    const MacroArgument* const place = from_->find(ArgumentRole::Target, measuredAxis(*from_));
+    return from_->intent == Intent::Surface && place != nullptr && place->frame == ir::Frame::Work &&
+           stdlib::travelIsSearch(*to_, measuredAxis(*to_));
   }
   // How far the call searches beyond where it expects the surface; nullptr: not known.
   ir::ExpressionPtr searchedBeyond(ir::Axis axis) {

@@ -207,6 +207,47 @@ TEST_CASE("verify cycles: a cycle that no values make a program of is refused as
   CHECK(said(outcome).find("computes nothing with what was measured") != std::string::npos);
 }
 
+// A macro that takes a travel as its whole search, as EasyProbe's, and needs no work offset to set.
+TEST_CASE("verify cycles: a travel that is a macro's whole search goes on beyond the surface") {
+  const TestFolder folder("dotek-whole-search");
+  std::string set = readAll(root() / "stdlib/macros/easyprobe.toml");
+  for (const std::string_view needs : {std::string_view(", point = true, required = true"),
+                                       std::string_view("role = \"nominal\", axis = \"X\", required = true")})
+    for (std::size_t at = 0; (at = set.find(needs, at)) != std::string::npos; ++at)
+      set.erase(at + needs.size() - 17, 17); // ", required = true"
+  folder.write("macros/travel.toml", set);
+  const auto written = [&](const std::string& travel) {
+    return folder.write("face.cycle", "cycle face \"Face\"\n\nparameter way : length = 12 mm letter X\n\n"
+                                      "spindle off\nprobe on\ntouch x by " +
+                                          travel + "\nprobe off\n");
+  };
+  driver::ConvertOptions options;
+  options.inputs = {written("way")};
+  options.common.data = {folder.path().string()};
+  options.to = "fanuc";
+  options.control = "fanuc-0i-md";
+  options.probeMacros = "travel";
+  driver::Outcome outcome = driver::convert(options);
+  REQUIRE_MESSAGE(outcome.status == 0, said(outcome));
+  CHECK_MESSAGE(outcome.output.find("X[#24*[1.+10./ABS[#24]]]") != std::string::npos, outcome.output);
+  options.common.host = {{"overtravel", "4"}};
+  outcome = driver::convert(options);
+  CHECK_MESSAGE(outcome.output.find("X[#24*[1.+4./ABS[#24]]]") != std::string::npos, outcome.output);
+  options.inputs = {written("-3 mm")};
+  outcome = driver::convert(options);
+  CHECK_MESSAGE(outcome.output.find("X-7.") != std::string::npos, outcome.output);
+  options.inputs = {written("way")};
+  options.common.set = {{"way", "0"}};
+  outcome = driver::convert(options);
+  CHECK(outcome.status == 1);
+  CHECK_MESSAGE(said(outcome).find("a travel of 0 has no direction") != std::string::npos, said(outcome));
+  driver::VerifyOptions verify = optionsOf(written("way"), "travel", "fanuc-0i-md");
+  verify.common.data = options.common.data;
+  verify.cases = 9; // none at an edge
+  outcome = driver::verify(verify);
+  CHECK_MESSAGE(outcome.output.starts_with("AGREES"), said(outcome));
+}
+
 // Where the ball begins within a hundredth of the wall, macros take the stylus for deflected.
 TEST_CASE("verify cycles: a touch without a way says nothing") {
   const TestFolder folder("dotek-no-way");
