@@ -51,30 +51,38 @@ void demand(ir::Cycle& cycle, ir::VariableId id, const ir::ConditionPtr& offered
 
 } // namespace
 
-std::map<ir::VariableId, std::vector<DialogChoice>>
-dialogChoices(const project::CycleFolder& folder, const ir::Cycle& cycle, const SourceMap& sources) {
-  std::map<ir::VariableId, std::vector<DialogChoice>> out;
+std::map<std::string, std::vector<DialogChoice>> dialogChoices(const project::CycleFolder& folder,
+                                                               const SourceMap& sources) {
+  std::map<std::string, std::vector<DialogChoice>> out;
   if (folder.cycle == nullptr || !folder.cycle->dialog) return out;
   const Encoding encoding = sources.file(folder.cycle->dialog->file).encoding();
-  std::map<std::string, ir::VariableId> ids;
-  for (ir::VariableId id = 0; id < cycle.variables.size(); ++id)
-    if (cycle.variable(id).role == ir::Role::Parameter)
-      ids.emplace(gibbs::foldCase(cycle.variable(id).name), id);
-  std::vector<std::optional<ir::VariableId>> lists; // in the order of creation, which is their number
+  std::vector<std::string> lists; // in the order of creation, which is their number
   for (const gibbs::Control& control : folder.cycle->dialog->controls) {
     const std::string kind = gibbs::foldCase(control.kind.text);
-    const auto found = control.variable ? ids.find(gibbs::foldCase(control.variable->text)) : ids.end();
-    if (kind == gibbs::foldCase("CHECK") && found != ids.end()) out[found->second] = {{0, "no"}, {1, "yes"}};
-    if (kind == gibbs::foldCase("DROPDOWN_NEW"))
-      lists.push_back(found == ids.end() ? std::nullopt : std::optional(found->second));
+    const std::string field = control.variable ? gibbs::foldCase(control.variable->text) : "";
+    if (kind == gibbs::foldCase("CHECK") && !field.empty()) out[field] = {{0, "no"}, {1, "yes"}};
+    if (kind == gibbs::foldCase("DROPDOWN_NEW")) lists.push_back(field);
     if (kind != gibbs::foldCase("DROPDOWN_ADD") || control.arguments.size() != 3) continue;
     const auto list = numberOf(*control.arguments[0]);
     const auto value = numberOf(*control.arguments[2]);
     const auto* text = std::get_if<gibbs::TextLiteral>(&control.arguments[1]->node);
     if (!list || !value || text == nullptr || *list < 1 || *list > static_cast<double>(lists.size()))
       continue;
-    if (const auto id = lists[static_cast<std::size_t>(*list) - 1])
-      out[*id].push_back({*value, toUtf8(text->text, encoding)});
+    if (const std::string& name = lists[static_cast<std::size_t>(*list) - 1]; !name.empty())
+      out[name].push_back({*value, toUtf8(text->text, encoding)});
+  }
+  return out;
+}
+
+std::map<ir::VariableId, std::vector<DialogChoice>>
+dialogChoices(const project::CycleFolder& folder, const ir::Cycle& cycle, const SourceMap& sources) {
+  std::map<ir::VariableId, std::vector<DialogChoice>> out;
+  const auto offered = dialogChoices(folder, sources);
+  for (ir::VariableId id = 0; id < cycle.variables.size(); ++id) {
+    const auto list = cycle.variable(id).role == ir::Role::Parameter
+                          ? offered.find(gibbs::foldCase(cycle.variable(id).name))
+                          : offered.end();
+    if (list != offered.end()) out.emplace(id, list->second);
   }
   return out;
 }

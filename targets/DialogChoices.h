@@ -20,6 +20,10 @@ struct DialogChoice {
   std::string title; // UTF-8
 };
 
+// Of each field that the dialog of `folder` offers as a list, or as a check box (0 and 1), by its folded
+// name.
+std::map<std::string, std::vector<DialogChoice>> dialogChoices(const project::CycleFolder& folder,
+                                                               const SourceMap& sources);
 // Of each parameter of `cycle` that the dialog of `folder` offers as a list, or as a check box (0 and 1), in
 // its order. Other parameters are absent.
 std::map<ir::VariableId, std::vector<DialogChoice>>

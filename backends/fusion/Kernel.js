@@ -486,11 +486,15 @@ function dotekRun(input) {
       return global[name].apply(null, list || []);
     }
   }
-  var taken, kept = [], defined = {};
+  var taken, kept = [], defined = {}, offered = [], entries, entry;
   for (var name in input.entry === undefined ? {} : properties) {
     if (typeof properties[name] === "object" && properties[name] !== null &&
       properties[name].value !== undefined) {
       defined[name] = properties[name].value;
+      entries = properties[name].values;
+      for (entry = 0; entries && entry < entries.length; ++entry) {
+        offered[offered.length] = name + "=" + entries[entry].id + "=" + entries[entry].title;
+      }
     }
   }
   unit = input.unit === undefined ? MM : input.unit;
@@ -543,7 +547,7 @@ function dotekRun(input) {
   }
   return {text: dotekState.before.join("") + dotekState.text, errors: dotekState.errors,
     warnings: dotekState.warnings, afterError: dotekState.afterError, taken: taken, kept: kept,
-    defined: defined};
+    defined: defined, offered: offered};
 }
 
 // ---- what Dotek calls -----------------------------------------------------------------------------------
@@ -606,6 +610,9 @@ function dotekRun(input) {
     }
     for (name in result.defined) {
       out[out.length] = "d" + name + "=" + result.defined[name];
+    }
+    for (i = 0; i < result.offered.length; ++i) {
+      out[out.length] = "o" + result.offered[i];
     }
     if (result.taken === true) {
       out[out.length] = "t";

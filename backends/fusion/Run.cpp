@@ -3,6 +3,7 @@
 #include "backends/fusion/KernelText.h"
 #include "backends/fusion/Script.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <variant>
 
@@ -97,7 +98,12 @@ RunResult Fragment::run(const RunInput& input) const {
       out.taken = true;
     else if (kind == 'd' && equals != std::string::npos)
       out.defined[texts[i].substr(1, equals - 1)] = texts[i].substr(equals + 1);
-    else
+    else if (kind == 'o' && equals != std::string::npos) {
+      const std::size_t second = std::min(texts[i].find('=', equals + 1), texts[i].size());
+      out.offered[texts[i].substr(1, equals - 1)].emplace_back(
+          texts[i].substr(equals + 1, second - equals - 1),
+          texts[i].substr(std::min(second + 1, texts[i].size())));
+    } else
       (kind == 'e' ? out.errors : kind == 'w' ? out.warnings : out.kept).push_back(texts[i].substr(1));
   }
   return out;

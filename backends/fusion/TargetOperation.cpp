@@ -1,6 +1,7 @@
 #include "backends/fusion/TargetOperation.h"
 
 #include "backends/fusion/Emit.h"
+#include "backends/fusion/TargetLists.h"
 #include "backends/fusion/TargetWritten.h"
 #include "support/Decimal.h"
 #include "targets/DialogChoices.h"
@@ -53,6 +54,7 @@ void OperationDemands::check(const TargetCase& now, const fusion::RunResult& res
   }
   for (const verify::DrawField& field : from_.plan.fields)
     compareDefinition(field, result, out);
+  compareLists(dialogChoices(from_.folder, from_.session.sources()), result, prefix_, out);
 }
 
 // The operation of another cycle, a document in inches, an operation that the post surrounds with calls.

@@ -2,6 +2,7 @@
 
 #include "backends/fusion/Emit.h"
 #include "backends/fusion/Run.h"
+#include "backends/fusion/TargetLists.h"
 #include "backends/fusion/TargetWritten.h"
 #include "project/Compilation.h"
 #include "sim/machine/Compile.h"
@@ -342,6 +343,7 @@ private:
     fusion::RunInput input = inputOf(now.drawn);
     input.chosen = false;
     const fusion::RunResult other = fragment_.run(input);
+    compareLists(listsOfCycle(from_.options.inputs.front(), from_.options.common), other, prefix_, out);
     if (!other.ok() || !other.text.empty() || other.taken)
       out.differs(verify::Aspect::Ending,
                   "an operation that names no cycle: it has to write nothing; " + didInstead(other));

@@ -266,4 +266,32 @@ kill -ABRT $W; wait $P; echo "status $?"; cat said)");
   CHECK(typed.err.find("started by Dotek itself") != std::string::npos);
 }
 
+TEST_CASE("verify of a fragment sees titles of a list that were exchanged") {
+  const std::filesystem::path shops = root() / "tests" / "shops";
+  driver::VerifyOptions options;
+  options.inputs = {(shops / "included" / "HB_Anschlag").string()};
+  options.source.prog = (shops / "included" / "post.txt").string();
+  options.common.data = {(shops / "data").string()};
+  options.to = "fusion";
+  options.common.scriptProgram = runningProgram();
+  options.cases = 10;
+  options.jobs = 1;
+  driver::ConvertOptions convert;
+  static_cast<targets::TranslationOptions&>(convert) = options;
+  std::string text = driver::convert(convert).output;
+  const std::size_t one = text.find("\"links\""), other = text.find("\"rechts\"");
+  REQUIRE_MESSAGE((one != std::string::npos && other != std::string::npos), text);
+  const ProcessFolder folder;
+  folder.write("edited.js", text);
+  options.translation = folder.path("edited.js");
+  CHECK(driver::verify(options).status == 0);
+  text.replace(other, 8, "\"links\"");
+  text.replace(one, 7, "\"rechts\"");
+  folder.write("edited.js", text);
+  const driver::Outcome outcome = driver::verify(options);
+  CHECK(outcome.status == 1);
+  CHECK(renderText(outcome.diagnostics, outcome.sources, 0).find("calls 1 `rechts` against `links`") !=
+        std::string::npos);
+}
+
 } // namespace dotek::tests
