@@ -59,6 +59,10 @@ public:
   };
   Performed perform(const verify::Case& values, sim::World& world, const verify::Entry& entry,
                     const std::set<std::uint32_t>& stores, verify::Stand::Way way);
+  // What the folder draws for these values beside what its posted program does with them, on the part that it
+  // draws; places are of its macro. Nothing where the values are rejected, or nothing is drawn.
+  std::vector<verify::Difference> drawnBeside(const verify::Case& values, const verify::Entry& entry,
+                                              double tolerance);
   // The line of its Prog that printed a place of the posted text; no place: none did.
   static SourceRange progPlace(SourceRange posted, const std::vector<frontend::compost::PostedLine>& lines);
 

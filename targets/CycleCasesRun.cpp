@@ -103,6 +103,25 @@ CaseRunner::Performed CaseRunner::perform(const verify::Case& values, sim::World
   return out;
 }
 
+std::vector<verify::Difference> CaseRunner::drawnBeside(const verify::Case& values,
+                                                        const verify::Entry& entry, double tolerance) {
+  const std::unique_ptr<Values> now = check(values, false);
+  if (!now || now->rejected || !now->path || !readPosted(*now)) return {};
+  const bool touches = makePart(*now);
+  if (!touches) now->part = emptyPart(zeroOf(values));
+  sim::World world(*now->part, probeFor(plan_, values));
+  const auto beside = [&](verify::Stand::Way way) {
+    return verify::compare(*now->path, {}, runPosted(*now, world, entry, way), tolerance);
+  };
+  // Where other surfaces are measured than it draws the program would not find them.
+  std::vector<verify::Difference> out = beside(verify::Stand::Way::Rehearse);
+  std::erase_if(out, [](const verify::Difference& one) { return one.aspect != verify::Aspect::Nominal; });
+  if (!out.empty() || !touches) return out;
+  return runPosted(*now, world, entry, verify::Stand::Way::Run).ending == verify::Ending::Finished
+             ? beside(verify::Stand::Way::Run)
+             : out;
+}
+
 void CaseRunner::addFinding(CaseResult& result, const verify::Difference& difference,
                             const Values& values) const {
   CaseFinding finding;

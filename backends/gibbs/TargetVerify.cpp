@@ -3,6 +3,9 @@
 #include "backends/gibbs/TargetVerify.h"
 
 #include "backends/gibbs/Emit.h"
+#include "frontend/gibbs/Ast.h"
+#include "frontend/gibbs/Cycle.h"
+#include "support/Decimal.h"
 #include "support/Temporary.h"
 #include "support/messages/Verify.h"
 #include "targets/CycleCases.h"
@@ -21,6 +24,8 @@ namespace dotek::targets {
 namespace fs = std::filesystem;
 
 namespace {
+
+constexpr double kSameValue = 1e-6;
 
 // What a message of the dialog says, out of what Dotek says of it.
 std::string_view messageIn(std::string_view rejection) {
@@ -124,8 +129,14 @@ public:
                     0);
     else if (!ran.record)
       out.differsAt(verify::Aspect::Ending, "the branch that is written prints no program: " + ran.text, 0);
-    else if (now.source != nullptr)
+    else if (now.source != nullptr) {
       compareRecords(ran, now, out);
+      if (now.questions != nullptr && out.differences.empty() &&
+          now.source->ending == verify::Ending::Finished) {
+        comparePath(values, now, out);
+        compareFirstValues(out);
+      }
+    }
     if (now.shown != nullptr && ran.record)
       *now.shown = {
           runner_->perform(values, now.world, now.entry, now.stores, verify::Stand::Way::KeepMoves).record,
@@ -216,6 +227,45 @@ private:
     for (verify::Difference& one : verify::compare(source, record, rules)) {
       const std::uint32_t line = lineOf(one.target, ran);
       out.differences.push_back({std::move(one), line, ""});
+    }
+  }
+
+  // What the CAM shows is what the branch does. Words of the branch are rounded.
+  void comparePath(const verify::Case& values, const TargetCase& now, TargetRun& out) const {
+    const double rounded = kRoundedWord * std::pow(10, -from_.inputs.control->decimals);
+    for (verify::Difference& one :
+         runner_->drawnBeside(values, now.entry, std::max(rounded, from_.options.tolerance))) {
+      const SourceRange drawn = one.source;
+      const std::string line =
+          drawn.hasPlace() ? fmt::format(", line {}", runner_->session().sources().line(drawn)) : "";
+      one.text = fmt::format("ToolPath.mac{} draws something else than the branch does: {}", line, one.text);
+      one.source = {};
+      out.differences.push_back({std::move(one), 0, ""});
+    }
+  }
+
+  // What the dialog begins with.
+  void compareFirstValues(TargetRun& out) const {
+    const std::vector<frontend::gibbs::Field> declared =
+        frontend::gibbs::declaredFields(*runner_->folder().cycle);
+    for (const verify::DrawField& field : from_.plan.fields) {
+      const auto name = fields_.find(field.name);
+      std::optional<double> first = field.initial;
+      for (const auto& [given, text] : from_.options.defaults)
+        if (frontend::gibbs::foldCase(given) == frontend::gibbs::foldCase(field.name))
+          first = parseNumber(text);
+      if (name == fields_.end() || !first || field.fixed) continue;
+      const auto found = std::find_if(declared.begin(), declared.end(), [&](const auto& one) {
+        return frontend::gibbs::foldCase(one.name.text) == frontend::gibbs::foldCase(name->second);
+      });
+      if (found != declared.end() && found->value && std::abs(*found->value - *first) <= kSameValue) continue;
+      const bool stated = found != declared.end() && found->value;
+      out.differs(
+          verify::Aspect::Variable,
+          fmt::format("DefineData.txt{} gives {} the first value {} against {}, that of the source",
+                      stated ? fmt::format(", line {}", runner_->session().sources().line(found->name.range))
+                             : "",
+                      name->second, stated ? numberText(*found->value) : "of no number", numberText(*first)));
     }
   }
 

@@ -76,7 +76,9 @@ TEST_CASE("verify to gibbs: a dialog or a branch that was damaged differs") {
   const ProcessFolder folder;
   REQUIRE(folder.run("dotek convert " + cycle("bore") + convert + "-d out").status == 0);
   const std::string branch = folder.read("out/bore/branch.txt"),
-                    checks = folder.read("out/bore/CycleData.mac");
+                    checks = folder.read("out/bore/CycleData.mac"),
+                    path = folder.read("out/bore/ToolPath.mac"),
+                    first = folder.read("out/bore/DefineData.txt");
   const auto verdict = [&](const std::string& cases) {
     return folder.run("dotek verify " + cycle("bore") + convert + "--cases " + cases +
                       " --jobs 1 --translation out/bore/branch.txt");
@@ -85,13 +87,14 @@ TEST_CASE("verify to gibbs: a dialog or a branch that was damaged differs") {
   CHECK_MESSAGE(verdict(cases).out.starts_with("AGREES"), branch);
 
   const auto differs = [&](const std::string& file, const std::string& text, std::string_view from,
-                           std::string_view to) {
+                           std::string_view to, const std::string& says = "") {
     CAPTURE(from);
     const std::string damaged = replaced(text, from, to);
     REQUIRE_MESSAGE(!damaged.empty(), text);
     folder.write("out/bore/" + file, damaged);
     const ShellResult result = verdict(cases);
     CHECK_MESSAGE(result.out.starts_with("DIFFERS"), result.out << result.err);
+    CHECK_MESSAGE(result.err.find(says) != std::string::npos, result.err);
     folder.write("out/bore/" + file, text);
   };
   differs("branch.txt", branch, "G65 P9833", "G65 P9832");                    // the probe stays on
@@ -102,6 +105,13 @@ TEST_CASE("verify to gibbs: a dialog or a branch that was damaged differs") {
   differs("CycleData.mac", checks, "if depth < 0 then goto", "if depth < 0.5 then goto");
   differs("CycleData.mac", checks, "if diameter >= 2*radius+1 then goto fine", "goto fine");
   differs("CycleData.mac", checks, "No room in the bore", "No bore in the room");
+  const char* const drawn = " draws something else than the branch does: ";
+  differs("ToolPath.mac", path, "feed_z, -depth", "feed_z, -depth-1", drawn);
+  differs("ToolPath.mac", path, "feed_x, diameter/2-radius", "feed_x, diameter/4-radius", drawn);
+  differs("ToolPath.mac", path, "add_custom_drill_cycle_path feed_z, 0",
+          "add_custom_drill_cycle_path feed_z, 5", drawn);
+  differs("DefineData.txt", first, "diameter = 40", "diameter = 41",
+          "gives diameter the first value 41 against 40, that of the source");
 }
 
 TEST_CASE("verify to gibbs: the temporary folder is gone at the end, and on a signal") {
