@@ -55,6 +55,7 @@ struct Folder {
   std::vector<Field> fields;
   // First numbers of variables of the control that hold its place along X, Y and Z, active work offset.
   std::vector<std::uint32_t> places;
+  std::optional<double> clearance; // beside a surface of calls of the source that state none
 };
 
 struct FolderText {

@@ -83,6 +83,7 @@ private:
                                      : folder.name;
     for (const auto& first : {inputs.control->variables.blockEnd, inputs.control->variables.position})
       if (first) out.places.push_back(static_cast<std::uint32_t>(*first));
+    if (lowered.macros != nullptr) out.clearance = lowered.macros->probing.clearance;
     checkHosts(cycle, diagnostics);
     if (diagnostics.hasErrors()) return;
 

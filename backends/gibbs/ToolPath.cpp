@@ -1,7 +1,7 @@
 // ToolPath.mac: the moves of a cycle whose touches find what they expect. X and Y count from the point of the
 // operation, Z from the retract plane, where the cycle begins.
-#include "backends/common/CycleTouches.h"
 #include "backends/gibbs/Macro.h"
+#include "backends/gibbs/PathCycles.h"
 #include "ir/CycleNames.h"
 #include "ir/Fold.h"
 #include "ir/Rewrite.h"
@@ -442,14 +442,24 @@ private:
   }
 
   void call(const ir::CallCycle& node, const ir::Origin& from) {
-    const std::vector<ir::Measure> touches = touchesOf(node);
-    if (touches.empty()) {
+    const std::optional<DrawnCycle> cycle =
+        drawnCycle(node, {[this] { return radius(); }, here_[2], folder_.clearance}, from);
+    if (!cycle) {
       refuse(from.range(), "the cycle `" + node.cycle + "`",
              "write its touches, which a path can follow, in its place");
       return;
     }
-    for (const ir::Measure& one : touches)
-      measure(one, from);
+    for (const ir::CycleStatement& step : cycle->steps)
+      one(step);
+    std::map<ir::ResultName, Found> results;
+    for (const auto& [name, value] : cycle->values)
+      results[name] = {known(value, from), {}};
+    for (const auto& [name, place] : cycle->places) {
+      const auto i = static_cast<std::size_t>(name) - static_cast<std::size_t>(ir::ResultName::PositionX);
+      results[name] = {local(place, i, from), i};
+      if (cycle->places.size() == 1) results[ir::ResultName::Main] = results[name];
+    }
+    results_ = std::move(results);
   }
 
   // Where ways meet, the place is in variables.

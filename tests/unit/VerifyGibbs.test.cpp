@@ -69,6 +69,22 @@ TEST_CASE("verify to gibbs: what is written of a folder agrees with it") {
   CHECK_MESSAGE(outcome.output.starts_with("AGREES"), said(outcome));
 }
 
+TEST_CASE("verify to gibbs: folders whose macros touch bores, webs and faces at an angle") {
+  struct Source {
+    const char *area, *name;
+  };
+  for (const Source& one : {Source{"from-cam", "eyelet"}, {"from-cam", "tongue"}}) {
+    driver::VerifyOptions options = optionsOf((root() / "tests/golden/cycle" / one.area / one.name).string());
+    options.source.prog = (root() / "tests/golden/cycle" / one.area / "post.txt").string();
+    options.source.form = "thesis-a";
+    options.control.clear();
+    options.probeMacros.reset();
+    options.defaults.clear();
+    const driver::Outcome outcome = driver::verify(options);
+    CHECK_MESSAGE(outcome.output.starts_with("AGREES"), one.name << ": " << said(outcome));
+  }
+}
+
 TEST_CASE("verify to gibbs: a dialog or a branch that was damaged differs") {
   const std::string convert =
       " --to gibbs --control fanuc-31i-b --probe-macros inspection-plus --host "
