@@ -35,15 +35,6 @@ namespace gibbs = frontend::gibbs;
 
 namespace {
 
-constexpr std::uint32_t kAttempts = 2000;    // to find values that the cycle takes
-constexpr std::uint32_t kMoreAttempts = 200; // for others in the place of those
-// What the checks of the translation reject is not asked of the source, which takes a thousand times as long.
-// It is asked in one case of so many, for checks that were translated wrong, and where many attempts were in
-// vain.
-constexpr std::uint64_t kAsked = 4;
-constexpr std::uint32_t kForeseen = 1500;
-constexpr std::uint64_t kCallerCases = 8; // in which callers break what the translation demands
-
 // Variables of the control that the program writes by number.
 std::set<std::uint32_t> storesOf(const std::vector<ir::Program>& programs) {
   std::set<std::uint32_t> out;
@@ -345,60 +336,6 @@ std::unique_ptr<CaseRunner::Values> CaseRunner::attemptAsIs(const verify::Case& 
   }
   if (values->path && !stated) refusal_ = whyNotMeasured(*values);
   return refusal_.empty() ? std::move(values) : nullptr;
-}
-
-std::optional<verify::Case> CaseRunner::draw(std::uint64_t index) {
-  rejected_.clear();
-  return drawFrom(index, 0, kAttempts);
-}
-
-std::optional<verify::Case> CaseRunner::another(std::uint64_t index) {
-  if (options_.replay) return std::nullopt;
-  return drawFrom(index, tries_, std::min(kAttempts, tries_ + kMoreAttempts));
-}
-
-// Proposals from `tries` on, up to `end`.
-std::optional<verify::Case> CaseRunner::drawFrom(std::uint64_t index, std::uint32_t tries,
-                                                 std::uint32_t end) {
-  const auto isForeseen = [&](const verify::Case& proposal) {
-    if (plan_.bounds == nullptr || plan_.findsMacros) return false;
-    if (plan_.hostDecimals.empty()) return plan_.bounds->rejects(proposal);
-    verify::Case rounded = proposal;
-    roundHosts(rounded);
-    return plan_.bounds->rejects(rounded);
-  };
-  for (; tries < end; ++tries) {
-    verify::Case proposal = draws_->propose(index, tries);
-    if (options_.activeSystem) proposal.system = *options_.activeSystem;
-    proposal.callers = plan_.translation && (index < kCallerCases || options_.replay);
-    if (options_.partError) {
-      const auto& [x, y, z, turn] = *options_.partError;
-      proposal.error = {{x, y, z}, turn};
-    }
-    if (options_.replay) {
-      takeValues(proposal);
-      takeSelected(proposal, false);
-      return proposal; // drawn_ is of no other case
-    }
-    std::unique_ptr<Values> values;
-    if (nominal_ != nullptr) nominal_->roundStart(proposal);
-    if (tries < kForeseen && index % kAsked != 0 && isForeseen(proposal)) continue;
-    values = attempt(proposal);
-    if (values) {
-      verify::Case drawn = values->drawn;
-      drawn_ = std::move(values);
-      tries_ = tries + 1;
-      return drawn;
-    }
-    Rejection& rejection = rejected_[{refusal_, refusedAt_.begin}];
-    rejection = {rejection.count + 1, refusal_, refusedAt_};
-    if (unreadable_) return std::nullopt;
-  }
-  return std::nullopt;
-}
-
-std::vector<Rejection> CaseRunner::rejections() const {
-  return commonestFirst(rejected_);
 }
 
 // Where start and travel have to lead to the nominal: changes what is nominal. The path stays as it is.

@@ -116,12 +116,13 @@ bool CaseRunner::Questions::prints(const std::string& field, const std::vector<d
     return one.text == other.text;
   };
   return values_.posted && std::any_of(values.begin(), values.end(), [&](double value) {
-    verify::Case other = values_.drawn;
-    other.values[field] = value;
-    const std::unique_ptr<Values> now = runner_.check(other, false);
-    return now && !now->rejected && runner_.post(*now) &&
-           !std::equal(now->lines.begin(), now->lines.end(), values_.lines.begin(), values_.lines.end(), same);
-  });
+           verify::Case other = values_.drawn;
+           other.values[field] = value;
+           const std::unique_ptr<Values> now = runner_.check(other, false);
+           return now && !now->rejected && runner_.post(*now) &&
+                  !std::equal(now->lines.begin(), now->lines.end(), values_.lines.begin(),
+                              values_.lines.end(), same);
+         });
 }
 
 bool CaseRunner::Questions::takesNoOffset(const std::string& name, double value) {

@@ -36,8 +36,18 @@ void tellNoValues(CaseSubject& main, const std::vector<Rejection>& rejections) {
   Diagnostic& finding = first != nullptr
                             ? said.report<diag::ConversionRefused>(main.place(), refused, first->why)
                             : said.report<diag::NoValuesFound>(main.place(), all);
-  for (std::size_t i = 0; i < std::min(rejections.size(), kMostTold); ++i)
+  const std::size_t told = std::min(rejections.size(), kMostTold);
+  std::uint32_t others = first != nullptr ? refused : all;
+  for (std::size_t i = 0; i < told; ++i) {
+    if (first != nullptr && !rejections[i].byConversion) {
+      finding.note(rejections[i].at,
+                   fmt::format("besides, {} tries: {}", rejections[i].count, rejections[i].why));
+      continue;
+    }
+    others -= rejections[i].count;
     finding.note(rejections[i].at, fmt::format("{} of them: {}", rejections[i].count, rejections[i].why));
+  }
+  if (others > 0) finding.note({}, fmt::format("{} of them: for other reasons", others));
 }
 
 } // namespace

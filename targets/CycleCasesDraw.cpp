@@ -1,0 +1,98 @@
+// Values of one case: proposals until the cycle takes one, and what to say where it takes none.
+#include "targets/CycleCasesParts.h"
+#include "targets/NominalFields.h"
+#include "verify/Bounds.h"
+
+#include <algorithm>
+
+namespace dotek::targets {
+
+namespace {
+
+constexpr std::uint32_t kAttempts = 2000;    // to find values that the cycle takes
+constexpr std::uint32_t kMoreAttempts = 200; // for others in the place of those
+// What the checks of the translation reject is not asked of the source, which takes a thousand times as long.
+// It is asked in one case of so many, for checks that were translated wrong, and where many attempts were in
+// vain.
+constexpr std::uint64_t kAsked = 4;
+constexpr std::uint32_t kForeseen = 1500;
+constexpr std::uint64_t kCallerCases = 8; // in which callers break what the translation demands
+
+} // namespace
+
+std::optional<verify::Case> CaseRunner::draw(std::uint64_t index) {
+  rejected_.clear();
+  return drawFrom(index, 0, kAttempts);
+}
+
+std::optional<verify::Case> CaseRunner::another(std::uint64_t index) {
+  if (options_.replay) return std::nullopt;
+  return drawFrom(index, tries_, std::min(kAttempts, tries_ + kMoreAttempts));
+}
+
+// Proposals from `tries` on, up to `end`.
+std::optional<verify::Case> CaseRunner::drawFrom(std::uint64_t index, std::uint32_t tries,
+                                                 std::uint32_t end) {
+  const auto isForeseen = [&](const verify::Case& proposal) {
+    if (plan_.bounds == nullptr || plan_.findsMacros) return false;
+    if (plan_.hostDecimals.empty()) return plan_.bounds->rejects(proposal);
+    verify::Case rounded = proposal;
+    roundHosts(rounded);
+    return plan_.bounds->rejects(rounded);
+  };
+  std::unique_ptr<Values> values;
+  const auto proposed = [&](std::uint32_t which) {
+    verify::Case proposal = draws_->propose(index, which);
+    if (options_.activeSystem) proposal.system = *options_.activeSystem;
+    proposal.callers = plan_.translation && (index < kCallerCases || options_.replay);
+    if (options_.partError) {
+      const auto& [x, y, z, turn] = *options_.partError;
+      proposal.error = {{x, y, z}, turn};
+    }
+    return proposal;
+  };
+  const auto isTaken = [&](const verify::Case& proposal) {
+    values = attempt(proposal);
+    if (values) return true;
+    Rejection& rejection = rejected_[{refusal_, refusedAt_.begin}];
+    rejection = {rejection.count + 1, refusal_, refusedAt_};
+    return false;
+  };
+  const auto take = [&](std::uint32_t which) {
+    verify::Case drawn = values->drawn;
+    drawn_ = std::move(values);
+    tries_ = which + 1;
+    return drawn;
+  };
+  const bool all = tries == 0;
+  std::vector<std::uint32_t> passedOver; // for what the translated checks say
+  for (; tries < end; ++tries) {
+    verify::Case proposal = proposed(tries);
+    if (options_.replay) {
+      takeValues(proposal);
+      takeSelected(proposal, false);
+      return proposal; // drawn_ is of no other case
+    }
+    if (nominal_ != nullptr) nominal_->roundStart(proposal);
+    if (tries < kForeseen && index % kAsked != 0 && isForeseen(proposal)) {
+      passedOver.push_back(tries);
+      continue;
+    }
+    if (isTaken(proposal)) return take(tries);
+    if (unreadable_) return std::nullopt;
+  }
+  // What is reported adds up to the tries.
+  for (const std::uint32_t which : all ? passedOver : std::vector<std::uint32_t>()) {
+    verify::Case proposal = proposed(which);
+    if (nominal_ != nullptr) nominal_->roundStart(proposal);
+    if (isTaken(proposal)) return take(which);
+    if (unreadable_ || stopped_) return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+std::vector<Rejection> CaseRunner::rejections() const {
+  return commonestFirst(rejected_);
+}
+
+} // namespace dotek::targets
