@@ -154,8 +154,6 @@ std::span<const Check<CheckedProgram>* const> programChecks();
 void checkFile(const File& file, const stdlib::Control* control, const SourceMap& sources,
                Diagnostics& diagnostics);
 
-// One finding of position-read-early; for the simulator too, which sees what is read while the axes move.
-Diagnostic& reportEarlyPosition(SourceRange read, std::uint32_t variable, Report& report);
 // One finding of no-argument: `word` in a block with the call `name`.
 void reportNoArgument(SourceRange range, std::string_view word, std::string_view name, Report& report);
 

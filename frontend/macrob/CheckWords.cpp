@@ -1,8 +1,7 @@
-// NC words: decimal points, arguments of calls, positions that are read too early.
+// NC words: decimal points, arguments of calls.
 #include "frontend/macrob/BlockWords.h"
 #include "frontend/macrob/Calls.h"
 #include "frontend/macrob/Check.h"
-#include "frontend/macrob/Walk.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,8 +14,6 @@ namespace {
 bool isOneOf(char letter, std::string_view letters) {
   return letters.find(letter) != std::string_view::npos;
 }
-
-constexpr std::string_view kAxes = "XYZABCUVW";
 
 // Digits without a point, other than 0.
 const nc::Number* withoutPoint(const nc::Word& word) {
@@ -199,65 +196,6 @@ void argumentWithoutPoint(const CheckedProgram& input, Report& report) {
                   "`{0}` has no point; this control counts least increments and hands over {1}; write `{0}.`",
                   wordText(*argument.word), millimetres(*argument.word, *digits, *input.control));
     }
-}
-
-// ---- look-ahead
-
-namespace {
-
-// A position of a moving axis: machine, work. That of a skip is latched when the signal comes, and ends of
-// blocks are known when the block is read.
-bool isPosition(std::uint32_t number, const stdlib::SystemVariables& variables) {
-  for (const std::optional<int>& first : {variables.machine, variables.position})
-    if (first && number >= static_cast<std::uint32_t>(*first) &&
-        number < static_cast<std::uint32_t>(*first) + 6)
-      return true;
-  return false;
-}
-
-// An axis moves, and nothing stops the control from reading on.
-bool moves(const Words& words) {
-  bool axis = false;
-  for (const nc::Word& word : words.words) {
-    axis = axis || isOneOf(word.address, kAxes);
-    if (word.address == 'M') return false;
-    if (word.address != 'G') continue;
-    const auto code = literal(word);
-    // Skip, machine coordinates, dwell, calls, data input; codes of the machine's builder.
-    if (!code || *code == 31 || *code == 53 || *code == 4 || *code == 10 || *code == 28 || *code == 92 ||
-        *code >= 100 || (*code >= 65 && *code <= 67))
-      return false;
-  }
-  return axis;
-}
-
-} // namespace
-
-Diagnostic& reportEarlyPosition(SourceRange read, std::uint32_t variable, Report& report) {
-  return report.at(
-      read,
-      "#{} is read while the motion before it may still run; the control reads ahead and gives a position "
-      "on the path; put `G53` or `G4 P0` between",
-      variable);
-}
-
-void positionReadEarly(const CheckedProgram& input, Report& report) {
-  if (input.control == nullptr) return;
-  const Block* moving = nullptr;
-  for (const Block& block : input.program.blocks) {
-    if (moving != nullptr)
-      walk(block, [&](const Expression& expression, bool) {
-        const auto number = variableNumber(expression);
-        if (moving == nullptr || !number || !isPosition(*number, input.control->variables)) return;
-        reportEarlyPosition(expression.range, *number, report).note(moving->range, "the motion");
-        moving = nullptr; // reported once for each motion
-      });
-    // Nothing is known of a block that jumps arrive at, or that could not be read.
-    if (block.target || std::holds_alternative<Goto>(block.body) ||
-        std::holds_alternative<Unread>(block.body))
-      moving = nullptr;
-    if (const auto* words = std::get_if<Words>(&block.body)) moving = moves(*words) ? &block : nullptr;
-  }
 }
 
 } // namespace dotek::frontend::macrob

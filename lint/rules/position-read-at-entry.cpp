@@ -1,6 +1,7 @@
 #include "ir/Dataflow.h"
 #include "lint/NcProgram.h"
 #include "lint/Skips.h"
+#include "stdlib/ReadAhead.h"
 
 #include <set>
 
@@ -34,6 +35,8 @@ void check(const NcProgram& nc, Report& report) {
         into = into && other;
         return changed;
       });
+  const stdlib::Control* const control = nc.project.control;
+  const std::string advice = control != nullptr ? stdlib::waitAdvice(*control) : "`G53`"; // waits on all
   std::set<std::uint32_t> told;
   for (std::size_t i = 0; i < body.size(); ++i) {
     if (!waited[i] || *waited[i]) continue;
@@ -42,8 +45,8 @@ void check(const NcProgram& nc, Report& report) {
       report.at(range.hasPlace() ? range : body[i].origin.range(),
                 "#{} is read before anything in this macro waits for the axes; the caller's last move may "
                 "still run, "
-                "and the control gives a position on the path; put `G53` or `G4 P0` before",
-                number);
+                "and the control gives a position on the path; put {} before",
+                number, advice);
     }
   }
 }

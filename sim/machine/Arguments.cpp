@@ -19,13 +19,6 @@ const stdlib::CallCode* findCallCode(const stdlib::Control& control, char letter
   return nullptr;
 }
 
-bool stopsReadingAhead(const stdlib::Control& control, char letter, double value) {
-  const double tenths = std::round(value * 10);
-  return tenths >= 0 && tenths < 1e9 &&
-         std::binary_search(control.readAheadStops.begin(), control.readAheadStops.end(),
-                            std::pair(letter, static_cast<std::uint32_t>(tenths)));
-}
-
 GivenLetters givenLetters(std::span<const double> locals) {
   GivenLetters out;
   for (std::uint32_t local = 1; local < locals.size(); ++local) {

@@ -11,7 +11,6 @@ namespace dotek::sim {
 
 // The call that the code is; nullptr: it is an ordinary one.
 const stdlib::CallCode* findCallCode(const stdlib::Control& control, char letter, double value);
-bool stopsReadingAhead(const stdlib::Control& control, char letter, double value);
 
 // The letters of the arguments that a call gives, in the order of the locals they set.
 struct GivenLetters {

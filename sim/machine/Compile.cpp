@@ -4,6 +4,7 @@
 #include "sim/machine/Arguments.h"
 #include "sim/machine/Compiler.h"
 #include "sim/machine/Decimal8.h"
+#include "stdlib/ReadAhead.h"
 
 #include <algorithm>
 #include <cmath>
@@ -231,7 +232,8 @@ void Compiler::words(const ir::NcBlock& block, bool positions) {
       slots.mayCall = slots.mayStop = true;
     } else {
       slots.mayCall = slots.mayCall || findCallCode(control_, word.address, constant->value) != nullptr;
-      slots.mayStop = slots.mayStop || stopsReadingAhead(control_, word.address, constant->value);
+      slots.mayStop = slots.mayStop || stdlib::stopsReadingAhead(control_, word.address, constant->value) ||
+                      (word.address == 'G' && constant->value == 103);
     }
   }
   slots.firstWord = static_cast<std::uint32_t>(code_.words.size());

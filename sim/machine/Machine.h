@@ -187,6 +187,8 @@ public:
   std::uint32_t addCells(std::uint32_t count);
   // A value that a motion still in the queue may change: a position, the window of the PMC.
   bool changesWithMotion(std::uint32_t number) const;
+  // Where a skip move ended: the next one alone changes it.
+  bool isSkipPosition(std::uint32_t number) const;
   // An offset, of a work system or of a tool: where a motion that waits in the queue leads may change with
   // it.
   bool movesPositions(std::uint32_t number) const;

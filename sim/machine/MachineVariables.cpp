@@ -106,6 +106,11 @@ bool Machine::changesWithMotion(std::uint32_t number) const {
           place.kind == Kind::Window);
 }
 
+bool Machine::isSkipPosition(std::uint32_t number) const {
+  Place place;
+  return number >= 1000 && find(number, place) && place.kind == Place::Kind::Skip;
+}
+
 bool Machine::movesPositions(std::uint32_t number) const {
   using Kind = Place::Kind;
   Place place;

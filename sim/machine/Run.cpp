@@ -268,12 +268,6 @@ bool Run::fail(ArithmeticError error, bool tangent, bool bits) {
   return refuse("what this computes is not known to Dotek");
 }
 
-void Run::noteRead(std::uint32_t number) {
-  if (readEarly_[place_] || !machine_.changesWithMotion(number)) return;
-  readEarly_[place_] = true;
-  early_.push_back({code_.statementOf(place_).origin.range(), number});
-}
-
 void Run::noteWrite(std::uint32_t number) {
   if (readEarly_[place_] || !machine_.movesPositions(number)) return;
   readEarly_[place_] = true;

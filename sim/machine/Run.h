@@ -49,7 +49,7 @@ public:
   const std::vector<EarlyRead>& earlyReads() const { return early_; }
   // Before the run: motion of the caller may be waiting, and what a macro without text has moved last may be,
   // too. Offsets that are written then are noted as well.
-  void expectMotion() { ahead_ = expectsMotion_ = true; }
+  void expectMotion();
   const std::vector<EarlyRead>& earlyWrites() const { return earlyWrites_; }
   // Before the run: notes where one of these common variables counts as 0, since nobody has set it. A run
   // that watches takes longer.
@@ -189,6 +189,8 @@ private:
 
   bool readAt(double number, double& value);
   bool writeAt(double number, double value);
+  void expectAhead();
+  void noteStops();
   void noteRead(std::uint32_t number);
   void noteWrite(std::uint32_t number);
   bool refuse(std::string why) { return machine_.inconclusive(std::move(why)); }
@@ -212,6 +214,8 @@ private:
   std::vector<double> locals_; // of the next call, by number
   ir::NcWords words_;
   bool ahead_ = false;         // blocks of motion may be waiting
+  bool skipAhead_ = false;     // a skip move among them, whose position is not known before it
+  bool limited_ = false;       // G103 P1: the control does not read ahead
   bool expectsMotion_ = false; // also at the beginning, and after macros without text
   bool portOpen_ = false;
   std::string output_;

@@ -1,6 +1,7 @@
 // Blocks of words: what is handed to the machine, and codes that call programs.
 #include "sim/machine/Run.h"
 #include "sim/machine/Value.h"
+#include "stdlib/ReadAhead.h"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -137,13 +138,47 @@ bool Run::executeWords(const BlockSlots& slots) {
     return false;
   }
   checkShift();
-  if (machine_.moved()) ahead_ = true;
-  if (!slots.mayStop) return true;
-  for (std::uint32_t i = 0; i < words_.gCount; ++i)
-    if (stopsReadingAhead(control_, 'G', words_.g[i] / 10.0)) ahead_ = false;
-  for (std::uint32_t i = 0; i < words_.mCount; ++i)
-    if (stopsReadingAhead(control_, 'M', words_.m[i])) ahead_ = false;
+  if (machine_.moved() && !limited_) {
+    ahead_ = true;
+    for (std::uint32_t i = 0; i < words_.gCount; ++i)
+      skipAhead_ = skipAhead_ || words_.g[i] == 310;
+  }
+  if (slots.mayStop) noteStops();
   return true;
+}
+
+void Run::expectMotion() {
+  expectsMotion_ = true;
+  expectAhead();
+}
+
+// What moved last is not known; a skip move of a control that waits at G31 is done.
+void Run::expectAhead() {
+  ahead_ = expectsMotion_ && !limited_;
+  skipAhead_ = ahead_ && !stdlib::stopsReadingAhead(control_, 'G', 31);
+}
+
+void Run::noteRead(std::uint32_t number) {
+  if (readEarly_[place_] || !machine_.changesWithMotion(number)) return;
+  if (!skipAhead_ && machine_.isSkipPosition(number)) return; // latched by the signal
+  readEarly_[place_] = true;
+  early_.push_back({code_.statementOf(place_).origin.range(), number});
+}
+
+// A block that waits for the motion before it, or says how far the control reads on.
+void Run::noteStops() {
+  bool stops = false;
+  for (std::uint32_t i = 0; i < words_.gCount; ++i) {
+    stops = stops || stdlib::stopsReadingAhead(control_, 'G', words_.g[i] / 10.0);
+    if (words_.g[i] != 1030) continue;
+    limited_ =
+        stdlib::readAheadLimit(control_, words_.has('P') ? std::optional(words_.of('P')) : std::nullopt)
+            .value_or(limited_);
+    stops = stops || limited_;
+  }
+  for (std::uint32_t i = 0; i < words_.mCount; ++i)
+    stops = stops || stdlib::stopsReadingAhead(control_, 'M', words_.m[i]);
+  if (stops) ahead_ = skipAhead_ = false;
 }
 
 void Run::tellBlock(const BlockSlots& slots) {

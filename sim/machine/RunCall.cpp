@@ -119,7 +119,7 @@ bool Run::begin(const Request& request) {
     takeMeasured();
   }
   forgetChanged(ofMisses);
-  ahead_ = expectsMotion_;
+  expectAhead();
   ++place_;
   return true;
 }

@@ -1,6 +1,7 @@
 #include "sim/run/SimReport.h"
 
 #include "frontend/macrob/Check.h"
+#include "frontend/macrob/ReadAhead.h"
 #include "sim/machine/EndText.h"
 #include "sim/machine/Value.h"
 #include "support/Decimal.h"
@@ -155,7 +156,8 @@ void reportRun(const Run& run, const Machine& machine, const std::string& advice
   const stdlib::Control& control = machine.control();
   std::string stops;
   for (const auto& [letter, tenths] : control.readAheadStops)
-    stops += fmt::format("{}{}{}", stops.empty() ? "" : ", ", letter, numberText(tenths / 10.0));
+    stops += fmt::format("{}{}{}{}", stops.empty() ? "" : ", ", letter, numberText(tenths / 10.0),
+                         letter == 'G' && tenths == 1030 ? " P1" : "");
   using frontend::macrob::positionReadEarlyCheck;
   Report earlyReads(positionReadEarlyCheck.code, positionReadEarlyCheck.severity, diagnostics);
   // A macro reads its start axis by axis: one cause, one finding.
@@ -169,7 +171,7 @@ void reportRun(const Run& run, const Machine& machine, const std::string& advice
       before->note(early.range, fmt::format("and #{}", early.number));
       continue;
     }
-    before = &frontend::macrob::reportEarlyPosition(early.range, early.number, earlyReads);
+    before = &frontend::macrob::reportReadAhead(early.range, early.number, control, earlyReads);
     before->note({},
                  "the control waits at " + (stops.empty() ? std::string("codes that are not known") : stops));
   }

@@ -228,6 +228,17 @@ TEST_CASE("macrob check: positions that are read too early (1.2)") {
   CHECK(program("G1 X5. F100\nM5\n#1=#5041", k31) == "");
   CHECK(program("G65 P9811 X5.\n#1=#5041", k31) == "");
   CHECK(program("G1 X5. F100\n#1=#5001", k31) == ""); // end of the block, known beforehand
+  CHECK(program("G1 X5. F100\nG90\nF200.\n#1=#5041", k31) == "W 5:4 position-read-early");
+  CHECK(program("G31 X5. F100\nG1 X1.\n#1=#5061\n#2=#5041", k31) == "W 5:4 position-read-early");
+  // Nothing says that G31 or a dwell waits on a Haas; G103 P1 ends the reading ahead, G103 begins it again.
+  const std::string haas = "haas-ngc";
+  CHECK(program("G31 X5. F100.\n#1=#5061", haas) == "W 3:4 position-read-early");
+  CHECK(program("G31 X5. F100.\nG4 P0\n#1=#5061", haas) == "W 4:4 position-read-early");
+  CHECK(program("G31 X5. F100.\nG53\nG1 X1.\n#1=#5061", haas) == "");
+  CHECK(program("G31 X5. F100.\nG103 P1\n#1=#5061", haas) == "");
+  CHECK(program("G103 P1\nG31 X5. F100.\n#1=#5061\nG103\nG31 X5.\n#2=#5061", haas) ==
+        "W 7:4 position-read-early");
+  CHECK(program("G103\nG31 X5. F100.\n#1=#5061", haas) == "W 4:4 position-read-early");
 }
 
 TEST_CASE("macrob check: feeds, canned cycles and arcs that no value mends") {
