@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 
 namespace dotek::lint {
 namespace {
@@ -32,9 +33,11 @@ bool isCycle(double code) {
   return code == 73 || code == 74 || code == 76 || (code >= 81 && code <= 89 && code == std::floor(code));
 }
 
-Machining unknown() {
+Machining unknown(const Machining& before) {
   Machining out;
-  out.spindle = out.speed = out.length = out.offset = Certain::Unknown;
+  out.spindle = out.speed = out.length = out.offset = out.taken = Certain::Unknown;
+  out.lengthOf = before.lengthOf;
+  out.change = before.change;
   for (Machining::Modal& mode : out.modes)
     mode.on = Certain::Unknown;
   return out;
@@ -58,6 +61,8 @@ bool meet(Machining& into, const Machining& other) {
   if (into.tool != other.tool) into.tool = -1;
   if (into.called != other.called) into.called = -1;
   if (into.lengthOf != other.lengthOf) into.lengthOf = -1;
+  into.taken = joined(into.taken, other.taken);
+  if (into.change != other.change) into.change = Machining::kNowhere;
   if (into.distance != other.distance) into.distance = 0;
   if (into.motion != other.motion) into.motion = -1;
   into.lowered = into.lowered && other.lowered;
@@ -69,7 +74,7 @@ void moveZ(const ir::NcBlock& block, Machining& state) {
   const ir::Word* z = firstWord(block, "Z");
   const bool elsewhere = std::any_of(block.words.begin(), block.words.end(), [](const ir::Word& word) {
     const double* code = word.address == 'G' ? ir::constantValue(word.value) : nullptr;
-    return code != nullptr && isOneOf(*code, {10, 28, 30, 52, 53, 92, 4});
+    return code != nullptr && isOneOf(*code, {10, 28, 30, 31, 52, 53, 92, 4});
   });
   if (elsewhere) {
     if (z != nullptr) state.z.reset();
@@ -89,14 +94,19 @@ void moveZ(const ir::NcBlock& block, Machining& state) {
 }
 
 Machining after(const ir::ProgramStatement& statement, std::size_t at, const Machining& before) {
-  if (callOf(statement) != nullptr) return unknown();
+  if (const ir::Call* call = callOf(statement)) {
+    Machining out = unknown(before);
+    // A macro gives back what it changes, as for distanceModes().
+    if (call->kind != ir::CallKind::Subprogram) out.distance = before.distance;
+    return out;
+  }
   const auto* block = std::get_if<ir::NcBlock>(&statement.node);
   if (block == nullptr) return before;
   for (const ir::Word& word : block->words) {
     const double* code = ir::constantValue(word.value);
     if ((word.address == 'G' || word.address == 'M') &&
         (code == nullptr || (word.address == 'G' && *code >= 100)))
-      return unknown();
+      return unknown(before);
   }
   Machining out = within(*block, at, before);
   bool changes = false;
@@ -118,6 +128,8 @@ Machining after(const ir::ProgramStatement& statement, std::size_t at, const Mac
     out.spindle = hasCode(*block, 'M', 3) || hasCode(*block, 'M', 4) ? Certain::Yes : Certain::No;
     out.tool = out.called;
     out.called = -1;
+    out.taken = Certain::No;
+    out.change = at;
     out.lowered = false;
     out.z.reset();
   }
@@ -127,8 +139,10 @@ Machining after(const ir::ProgramStatement& statement, std::size_t at, const Mac
   if (std::any_of(block->words.begin(), block->words.end(), [](const ir::Word& word) {
         const double* code = word.address == 'G' ? ir::constantValue(word.value) : nullptr;
         return code != nullptr && *code >= 43 && *code < 45;
-      }))
+      })) {
     out.lengthOf = out.tool;
+    out.taken = Certain::Yes;
+  }
   moveZ(*block, out);
   return out;
 }
@@ -182,13 +196,15 @@ Machining within(const ir::NcBlock& block, std::size_t at, Machining out) {
   return out;
 }
 
-std::vector<std::optional<Machining>> machiningBefore(const ir::Program& program,
-                                                      const ir::ProgramFlow& flow) {
+std::vector<std::optional<Machining>>
+machiningBefore(const ir::Program& program, const ir::ProgramFlow& flow,
+                const std::function<bool(const ir::ProgramStatement&)>& touches) {
   if (!endsProgram(program)) return {};
   bool mills = false;
-  for (const ir::ProgramStatement& statement : program.body) {
-    if (skipOf(statement) != nullptr) return {};
-    const auto* block = std::get_if<ir::NcBlock>(&statement.node);
+  std::vector<std::size_t> touching;
+  for (std::size_t i = 0; i < program.body.size(); ++i) {
+    if (touches(program.body[i])) touching.push_back(i);
+    const auto* block = std::get_if<ir::NcBlock>(&program.body[i].node);
     if (block == nullptr) continue;
     mills = mills || hasCode(*block, 'M', 6) || hasCode(*block, 'G', 43);
     // A lathe names the offset in T.
@@ -196,12 +212,26 @@ std::vector<std::optional<Machining>> machiningBefore(const ir::Program& program
     if (tool && *tool >= 100 && !hasCode(*block, 'M', 6) && !hasCode(*block, 'G', 43)) return {};
   }
   if (!mills) return {};
-  return ir::factsBefore<Machining>(
+  auto facts = ir::factsBefore<Machining>(
       program.body, flow, Machining{},
       [&](std::size_t at, std::size_t, const Machining& before) {
         return after(program.body[at], at, before);
       },
       [](Machining& into, const Machining& other) { return meet(into, other); });
+  std::set<std::size_t> turned; // changes to tools that the program turns
+  for (const std::optional<Machining>& fact : facts)
+    if (fact && fact->spindle == Certain::Yes) turned.insert(fact->change);
+  std::set<std::size_t> changes;
+  std::set<int> tools;
+  for (const std::size_t at : touching) {
+    // What is called may look whether a tool that has cut is whole.
+    if (!facts[at] || (skipOf(program.body[at]) == nullptr && turned.contains(facts[at]->change))) continue;
+    changes.insert(facts[at]->change);
+    if (facts[at]->tool >= 0) tools.insert(facts[at]->tool);
+  }
+  for (std::optional<Machining>& fact : facts)
+    if (fact) fact->probes = changes.contains(fact->change) || tools.contains(fact->tool);
+  return facts;
 }
 
 } // namespace dotek::lint

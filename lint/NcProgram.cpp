@@ -13,7 +13,15 @@ const std::vector<std::optional<DistanceMode>>& NcProgram::modes() const {
 }
 
 const std::vector<std::optional<Machining>>& NcProgram::machining() const {
-  if (!machining_) machining_ = machiningBefore(program, flow());
+  if (machining_) return *machining_;
+  const Probing& probing = probingOf(project);
+  machining_ = machiningBefore(program, flow(), [&](const ir::ProgramStatement& statement) {
+    using Kind = ProbeStep::Kind;
+    if (skipOf(statement) != nullptr) return true;
+    const ProbeStep step = probing.step(statement);
+    return step.kind == Kind::On || step.kind == Kind::Protected || step.kind == Kind::Measure ||
+           (step.program != 0 && probing.skips(step.program));
+  });
   return *machining_;
 }
 

@@ -149,6 +149,10 @@ Modes after(const Block& block, const Modes& before, const stdlib::Control* cont
   if (words == nullptr) return before;
   if (const auto call = callOf(*words); call && call->kind != CallKind::Return) {
     Modes out = unknown(before);
+    if (call->kind == CallKind::Simple) { // gives back the modes that it needs otherwise
+      out.plane = before.plane;
+      out.distance = before.distance;
+    }
     if (call->kind == CallKind::AfterMoves || call->kind == CallKind::EachBlock) out.callsAfterMoves = true;
     if (call->kind == CallKind::Off) {
       if (!before.callsAfterMoves) return before;

@@ -23,6 +23,10 @@ void check(const NcProgram& nc, Report& report) {
     const int tool = codeWord(*block, 'M', 6) != nullptr
                          ? static_cast<int>(wordValue(*block, 'T').value_or(facts[i]->called))
                          : facts[i]->tool;
+    if (facts[i]->probes) { // a probe, or a tool that is measured
+      anyH = anyH || h != nullptr;
+      continue;
+    }
     if (tool > 0) tools.insert(tool);
     if (code == nullptr) {
       anyH = anyH || h != nullptr;

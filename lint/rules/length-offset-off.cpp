@@ -14,23 +14,24 @@ void check(const NcProgram& nc, Report& report) {
     if (!changed || axesOf(*block) == 0 || codeWord(*block, 'G', 53) != nullptr) continue;
     const int cycle = cycleOf(*block);
     const auto z = wordValue(*block, 'Z');
-    const bool cuts = cycle != 0 || (z && isPlainMove(*block) && now.motion >= 1 &&
-                                     ((now.distance == 90 && *z <= 0) || (now.distance == 91 && *z < 0)));
-    if (!cuts) continue;
-    const bool other =
-        now.length == Certain::Yes && now.tool >= 0 && now.lengthOf >= 0 && now.tool != now.lengthOf;
-    if (now.length != Certain::No && !other) continue;
-    Diagnostic& found =
-        other ? report.at(nc.program.body[i].origin.range(),
-                          "T{} is in the spindle, and the length in force is the one of T{}; the tool is too "
-                          "high, or "
-                          "goes into the part by the difference; write G43 with its H after the tool change",
-                          now.tool, now.lengthOf)
-              : report.at(nc.program.body[i].origin.range(),
-                          "no tool length is in force at this move; Z counts from the nose of the spindle, "
-                          "and the tool "
-                          "goes into the part by its length; write G43 with H after the tool change");
-    (void)found;
+    // Before a tool touches it may have no length: it is measured.
+    const bool below = now.distance == 0 ? z && *z < 0 : z && (now.distance == 90 ? *z <= 0 : *z < 0);
+    if (now.probes || !(cycle != 0 || (below && isPlainMove(*block) && now.motion >= 1))) continue;
+    const bool another = now.tool >= 0 && now.lengthOf >= 0 && now.tool != now.lengthOf;
+    const bool other = now.length == Certain::Yes && another;
+    // What was called before the tool change may have changed lengths, but for no tool that came later.
+    const bool none = now.length == Certain::Unknown && now.taken == Certain::No && another;
+    if (now.length != Certain::No && !other && !none) continue;
+    const SourceRange range = nc.program.body[i].origin.range();
+    if (other || none)
+      report.at(
+          range,
+          "T{} is in the spindle, and the length in force is the one of T{}{}; the tool is too high, or "
+          "goes into the part by the difference; write G43 with its H after the tool change",
+          now.tool, now.lengthOf, none ? ", or what a called program left" : "");
+    else
+      report.at(range, "no tool length is in force at this move; Z counts from the nose of the spindle, and "
+                       "the tool goes into the part by its length; write G43 with H after the tool change");
     return;
   }
 }

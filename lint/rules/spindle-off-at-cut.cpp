@@ -12,7 +12,7 @@ void check(const NcProgram& nc, Report& report) {
   const auto& facts = nc.machining();
   for (std::size_t i = 0; i < facts.size(); ++i) {
     const auto* block = std::get_if<ir::NcBlock>(&nc.program.body[i].node);
-    if (block == nullptr || !facts[i] || facts[i]->spindle != Certain::No) continue;
+    if (block == nullptr || !facts[i] || facts[i]->spindle != Certain::No || facts[i]->probes) continue;
     if (codeWord(*block, 'M', 3) != nullptr || codeWord(*block, 'M', 4) != nullptr ||
         codeWord(*block, 'M', 13) != nullptr)
       continue;
