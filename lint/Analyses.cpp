@@ -18,7 +18,7 @@ const ToolLengths& Analyses::toolLengths(const Project& project) {
 }
 
 const Askers& Analyses::askers(const Project& project) {
-  if (!askers_) askers_ = collectAskers(project);
+  if (!askers_) askers_.emplace(project);
   return *askers_;
 }
 

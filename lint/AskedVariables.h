@@ -13,9 +13,19 @@ namespace dotek::lint {
 // In conditions and calls of the program.
 std::set<std::uint32_t> askedIn(const ir::Program& program);
 
-// How many programs of the files ask for each variable. Computed once a project.
-using Askers = std::map<std::uint32_t, std::size_t>;
-Askers collectAskers(const Project& project);
+// Which programs of the files ask for each variable, and which of them run together. Computed once a project.
+class Askers {
+public:
+  explicit Askers(const Project& project);
+  // `program`, one that it calls, or one that is called with it asks for the variable.
+  bool ask(const ir::Program& program, std::uint32_t variable) const;
+
+private:
+  std::map<const ir::Program*, std::size_t> group_; // joined by calls
+  std::map<std::uint32_t, std::set<std::size_t>> asked_;
+  std::set<std::size_t> open_;       // groups with a call that may lead to any program
+  std::set<std::uint32_t> anywhere_; // asked for in those
+};
 const Askers& askersOf(const Project& project);
 
 } // namespace dotek::lint

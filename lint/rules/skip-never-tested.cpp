@@ -110,7 +110,8 @@ void check(const NcProgram& nc, Report& report) {
     const std::set<std::uint32_t> all = heldIn(nc.program, std::move(held));
     // A result that a caller looks at is asked for there.
     if (std::any_of(all.begin(), all.end(), [&](std::uint32_t number) {
-          return asked->contains(number) || (number >= kFirstCommon && askersOf(nc.project).contains(number));
+          return asked->contains(number) ||
+                 (number >= kFirstCommon && askersOf(nc.project).ask(nc.program, number));
         }))
       continue;
     report
