@@ -3,6 +3,7 @@
 #include "ir/Match.h"
 #include "ir/SharedMap.h"
 #include "ir/Walk.h"
+#include "lint/IndirectWrites.h"
 #include "lint/LengthNumbers.h"
 #include "lint/OffsetStates.h"
 #include "lint/Skips.h"
@@ -77,7 +78,9 @@ Held mixed(const Held& a, const Held& b) {
 
 struct Fact {
   ir::SharedMap<Held> values; // of variables that the program has set
-  bool lost = false;          // a computed number may have set any of them
+  // A computed number may have set any of the locals, of the common variables below #500, of those from
+  // there.
+  std::uint8_t lost = 0;
   Offset offset = Offset::AsBefore;
 };
 
@@ -105,7 +108,10 @@ bool merge(Fact& into, const Fact& other) {
   bool changed = into.values.unite(other.values, merged, [](std::uint32_t number, const Held& held) {
     return merged(held, entryValue(number));
   });
-  if (other.lost && !into.lost) into.lost = changed = true;
+  if ((other.lost & ~into.lost) != 0) {
+    into.lost = static_cast<std::uint8_t>(into.lost | other.lost);
+    changed = true;
+  }
   if (into.offset != other.offset && into.offset != Offset::Either) {
     into.offset = Offset::Either;
     changed = true;
@@ -113,12 +119,19 @@ bool merge(Fact& into, const Fact& other) {
   return changed;
 }
 
+std::uint8_t kindOf(std::uint32_t number) {
+  return number < 100 ? 1 : number < 500 ? 2 : 4;
+}
+constexpr std::uint8_t kEachKind = 7;
+
+constexpr double kMostTolerance = 10; // mm; more is no tolerance of a contact
+
 class Search {
 public:
   Search(const ir::Program& program, const Project& project, const LengthNumbers& numbers,
          const std::set<std::uint32_t>& switching, std::optional<CalledUnder> called)
       : program_(program), project_(project), numbers_(numbers), switching_(switching), called_(called),
-        macro_(!endsProgram(program)) {}
+        macro_(!endsProgram(program)), writes_(program) {}
 
   std::vector<LengthLeftIn> run() {
     if (!readsPosition() && !readsLength()) return {};
@@ -225,7 +238,8 @@ private:
       return out;
     }
     if (const Held* held = fact.values.find(*number)) return *held;
-    if (*number < kFirstSystem) return fact.lost ? unknownHeld() : entryValue(*number);
+    if (*number < kFirstSystem)
+      return (fact.lost & kindOf(*number)) != 0 ? unknownHeld() : entryValue(*number);
     out.wear = numbers_.wearOf(*number);
     out.maybeAdded = out.wear == nullptr && numbers_.isToolOffset(*number);
     return out;
@@ -300,9 +314,8 @@ private:
     if (const auto* store = std::get_if<ir::Store>(&statement.node)) {
       if (const auto number = storedNumber(statement)) {
         if (*number < kFirstSystem) fact.values.set(*number, held(store->value, fact));
-      } else if (const auto first = ir::firstNumber(store->number); !first || *first < kFirstSystem) {
-        fact.lost = true;
-        fact.values.transform([](std::uint32_t, const Held&) { return unknownHeld(); });
+      } else {
+        lose(writes_.range(store->number), fact);
       }
     }
     const ir::Call* call = callOf(statement);
@@ -314,6 +327,24 @@ private:
     if (number != nullptr && *number >= 0 && *number < 1e9 &&
         switching_.contains(static_cast<std::uint32_t>(*number)))
       fact.offset = Offset::Either;
+  }
+
+  // What is written by a computed number may have set any variable of the range.
+  static void lose(const std::optional<NumberRange>& range, Fact& fact) {
+    constexpr std::uint32_t kMostSingle = 64;
+    const NumberRange all = range.value_or(NumberRange{1, kFirstSystem - 1});
+    if (all.first >= kFirstSystem) return;
+    const std::uint32_t last = std::min(all.last, kFirstSystem - 1);
+    if (last - all.first < kMostSingle) {
+      for (std::uint32_t number = all.first; number <= last; ++number)
+        fact.values.set(number, unknownHeld());
+      return;
+    }
+    const bool each = all.first < 100 && last >= 500;
+    fact.lost =
+        static_cast<std::uint8_t>(fact.lost | kindOf(all.first) | kindOf(last) | (each ? kEachKind : 0));
+    fact.values.transform(
+        [&](std::uint32_t number, const Held& held) { return all.contains(number) ? unknownHeld() : held; });
   }
 
   void report(LengthLeftIn::Place place, SourceRange range, const ir::ExpressionPtr& value,
@@ -342,6 +373,9 @@ private:
       return;
     for (const ir::Word& word : block->words) {
       if (word.address != 'Z' || word.value == nullptr) continue;
+      if (const double* number = ir::constantValue(word.value);
+          number != nullptr && skipOf(statement) != nullptr)
+        targets_.push_back(*number);
       if (const Held z = held(word.value, fact); !z.none() || z.free() || z.wear != nullptr) continue;
       ir::eachNode(word.value, [&](const ir::Expression& one) {
         if (!std::holds_alternative<ir::MachineVariable>(one.node)) return;
@@ -392,14 +426,27 @@ private:
     for (const auto& [side, bound] :
          {std::pair{comparison.left, comparison.right}, std::pair{comparison.right, comparison.left}}) {
       const auto* size = std::get_if<ir::Unary>(&side->node);
-      if (size == nullptr || size->op != ir::UnaryOp::Absolute) continue;
-      const Held other = held(bound, fact);
       const double* number = ir::constantValue(bound);
-      constexpr double kMostTolerance = 10; // mm; more is no tolerance of a contact
+      if (size == nullptr || size->op != ir::UnaryOp::Absolute) {
+        judgeLimit(side, number, fact);
+        continue;
+      }
+      const Held other = held(bound, fact);
       if (!other.none() || other.free() || (number != nullptr && std::abs(*number) > kMostTolerance))
         continue;
       report(LengthLeftIn::Place::Difference, size->operand->range, size->operand, fact);
     }
+  }
+
+  // A contact against a number, as a limit of one side: a number as small as a tolerance, or that of the end
+  // of a skip move, is no height of a spindle.
+  void judgeLimit(const ir::ExpressionPtr& side, const double* number, const Fact& fact) {
+    if (number == nullptr) return;
+    const bool height = std::abs(*number) <= kMostTolerance ||
+                        std::any_of(targets_.begin(), targets_.end(),
+                                    [&](double target) { return std::abs(*number - target) <= 1; });
+    const Held one = held(side, fact);
+    if (height && !one.free()) report(LengthLeftIn::Place::Difference, side->range, side, fact);
   }
 
   // Under an offset that nothing of the program takes back, a height is where the tool's end is.
@@ -489,8 +536,10 @@ private:
   const std::set<std::uint32_t>& switching_;
   std::optional<CalledUnder> called_; // by programs of the files
   bool macro_;                        // it returns: what is in force is its caller's
-  bool absolute_ = false;             // G90 is in force at the statement that is judged
-  std::set<std::uint32_t> heights_;   // variables of which absolute Z words are computed
+  IndirectWrites writes_;
+  bool absolute_ = false;           // G90 is in force at the statement that is judged
+  std::vector<double> targets_;     // of absolute skip moves along Z
+  std::set<std::uint32_t> heights_; // variables of which absolute Z words are computed
   std::vector<LengthLeftIn> found_;
 };
 
