@@ -250,7 +250,8 @@ private:
       const bool comparison =
           conditional && i < action && (depthAt(i) > 0 || type(bodyBegin() + 1) != Lexer::LBRACKET);
       if (written == "=" && !comparison) continue;
-      const View meant = signMeant(written);
+      const bool assigns = !comparison && depthAt(i) == 0 && (written == "==" || written == "===");
+      const View meant = assigns ? View("=") : signMeant(written);
       if (meant.empty()) continue;
       const SourceRange where = range(tokens_[i].begin, end);
       const std::string text(meant);

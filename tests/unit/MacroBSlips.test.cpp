@@ -24,6 +24,9 @@ void holds(const Slip& one) {
 
 TEST_CASE("macrob slips: signs of other languages") {
   holds({"IF[#4=2.]GOTO8\nN8", "E 1:6 sign-unknown", "sign-unknown", "IF[#4EQ2.]GOTO8\nN8"});
+  // An assignment, not a comparison.
+  holds({"#4==#5003\n#6=#4", "E 1:3 sign-unknown", "sign-unknown", "#4=#5003\n#6=#4"});
+  holds({"IF[#3EQ2]THEN#4==#5", "E 1:16 sign-unknown", "sign-unknown", "IF[#3EQ2]THEN#4=#5"});
   holds({"WHILE[#4==2.]DO2\nEND2", "E 1:9 sign-unknown", "sign-unknown", "WHILE[#4EQ2.]DO2\nEND2"});
   holds({"IF[#18<#19]GOTO8\nN8", "E 1:7 sign-unknown", "sign-unknown", "IF[#18LT#19]GOTO8\nN8"});
   holds({"IF[#18 <> 4]GOTO8\nN8", "E 1:8 sign-unknown", "sign-unknown", "IF[#18 NE 4]GOTO8\nN8"});
