@@ -148,8 +148,12 @@ void SimWorld::checkHeight(const MachineMotion& motion) {
     if (std::abs(entry.wear + entry.geometry - std::abs(length)) < 1e-6 && entry.geometry != 0)
       takenOff.insert(entry.wear);
   for (const double taken : takenOff) {
-    const long long read = std::llround((z - length + taken) * 1000);
-    if (!heightsRead_.contains(read)) continue;
+    // Under G20 a word is rounded to a ten-thousandth of an inch.
+    constexpr long long kRounding = 2;
+    const long long meant = std::llround((z - length + taken) * 1000);
+    const auto found = heightsRead_.lower_bound(meant - kRounding);
+    if (found == heightsRead_.end() || *found > meant + kRounding) continue;
+    const long long read = *found;
     // A height that is written out is where the programmer wants it.
     const std::string text = session_.sources().textUtf8(rangeNow_());
     const std::size_t word = text.find_first_of("Zz");

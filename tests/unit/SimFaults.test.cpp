@@ -94,6 +94,11 @@ TEST_CASE("faults: a computed move that goes up by the length of the tool") {
     CHECK(holds(wrong.err, "[move-holds-length]"));
     CHECK(holds(bench.svg, "FAIL: TOOL LENGTH IN A MOVE"));
   }
+  // Under G20 a word has four places, and the height is met to a micron only.
+  bench.folder.write("O9402.nc",
+                     "O9402\nG20\nG53\n#3=#5043\nG90 G31 Z-.47 F8.\nIF[#5063-#5083 LT -.469] GOTO 6\n"
+                     "G0 Z#3\nG21\nM99\nN6 #3000=6(NO TOUCH)\n");
+  CHECK(holds(bench.run("--programs .").err, "[move-holds-length]"));
   for (const std::string kept : {"#3=#5043-#5083\n", "#3=#5003\n", "#3=#5043-#[2200+#4111]\n"}) {
     macro(kept);
     const CommandResult right = bench.run("--programs .");
