@@ -118,6 +118,28 @@ bool isDirected(ir::Relation relation) {
          relation == ir::Relation::Greater || relation == ir::Relation::GreaterEqual;
 }
 
+// What runs from there on, without going two ways, ends in an alarm.
+bool raisesFrom(const NcProgram& nc, std::size_t at) {
+  constexpr int kMostSteps = 12;
+  const auto& body = nc.program.body;
+  for (int steps = 0; steps < kMostSteps && at < body.size(); ++steps) {
+    if (std::holds_alternative<ir::Raise>(body[at].node)) return true;
+    const ir::Next& next = nc.flow().next[at];
+    if (next.size() != 1 || ir::isComputedJump(body[at])) return false;
+    at = next[0];
+  }
+  return false;
+}
+
+// Whether the condition of the branch leads to an alarm where it holds; nothing: neither side is one.
+std::optional<bool> raisesWhereTrue(const NcProgram& nc, std::size_t at) {
+  const auto* branch = std::get_if<ir::Branch>(&nc.program.body[at].node);
+  if (branch == nullptr) return std::nullopt;
+  for (const std::size_t to : nc.flow().next[at])
+    if (raisesFrom(nc, to)) return to != at + 1;
+  return std::nullopt;
+}
+
 struct Test {
   const ir::Binary* of = nullptr;
   SourceRange range;
@@ -129,11 +151,12 @@ void check(const NcProgram& nc, Report& report) {
   const Uses uses = usesOf(nc);
   std::vector<Test> tests;              // one side each
   std::vector<const ir::Binary*> other; // compared in another way: both sides, the other one
-  const auto look = [&](const ir::ExpressionPtr& value, const ir::ExpressionPtr& bound,
+  // `atLeast`: the alarm comes where the value is below the bound, which is no tolerance then.
+  const auto look = [&](const ir::ExpressionPtr& value, const ir::ExpressionPtr& bound, bool atLeast,
                         const SourceRange& range) {
     const ir::ExpressionPtr& one = bare(value);
     if (const ir::Binary* of = deviationOf(one, uses)) {
-      if (isTolerance(bare(bound), uses))
+      if (!atLeast && isTolerance(bare(bound), uses))
         tests.push_back({of, range});
       else
         other.push_back(of);
@@ -145,14 +168,29 @@ void check(const NcProgram& nc, Report& report) {
       if (const ir::Binary* of = deviationOf(bare(unary->operand), uses)) other.push_back(of);
     });
   };
-  for (const ir::ProgramStatement& statement : body)
-    if (const ir::ConditionPtr* condition = ir::conditionOf(statement); condition != nullptr)
-      eachComparison(*condition, [&](const ir::Comparison& comparison, SourceRange range) {
-        if (!isDirected(comparison.relation)) return;
-        const SourceRange place = range.hasPlace() ? range : statement.origin.range();
-        look(comparison.left, comparison.right, place);
-        look(comparison.right, comparison.left, place);
-      });
+  for (std::size_t i = 0; i < body.size(); ++i) {
+    const ir::ConditionPtr* condition = ir::conditionOf(body[i]);
+    if (condition == nullptr) continue;
+    // Of a condition with AND or OR the side of one comparison is not looked for.
+    const ir::Condition* alone = condition->get();
+    bool turned = false;
+    for (const ir::Not* inner = nullptr; alone != nullptr && (inner = std::get_if<ir::Not>(&alone->node));) {
+      alone = inner->inner.get();
+      turned = !turned;
+    }
+    std::optional<bool> raises;
+    if (alone != nullptr && std::holds_alternative<ir::Comparison>(alone->node))
+      raises = raisesWhereTrue(nc, i);
+    if (raises && turned) raises = !*raises;
+    eachComparison(*condition, [&](const ir::Comparison& comparison, SourceRange range) {
+      if (!isDirected(comparison.relation)) return;
+      const SourceRange place = range.hasPlace() ? range : body[i].origin.range();
+      const ir::Relation alarm = raises == false ? ir::opposite(comparison.relation) : comparison.relation;
+      const bool less = alarm == ir::Relation::Less || alarm == ir::Relation::LessEqual;
+      look(comparison.left, comparison.right, raises && less, place);
+      look(comparison.right, comparison.left, raises && !less, place);
+    });
+  }
   const auto same = [](const ir::Binary& a, const ir::Binary& b) {
     return (ir::equal(a.left, b.left) && ir::equal(a.right, b.right)) ||
            (ir::equal(a.left, b.right) && ir::equal(a.right, b.left));
