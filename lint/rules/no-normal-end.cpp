@@ -1,5 +1,6 @@
 #include "ir/Flow.h"
 #include "lint/NcProgram.h"
+#include "lint/OffsetStates.h"
 #include "lint/Skips.h"
 
 #include <algorithm>
@@ -22,6 +23,22 @@ bool endsNormally(const ir::ProgramStatement& statement) {
                                 ir::NameVariables> auto&) { return false; });
 }
 
+// M99 with P, which goes on elsewhere in the caller, is in the called program, or may be: it is in no file.
+bool mayReturnElsewhere(const ir::ProgramStatement& statement, const Project& project) {
+  if (callOf(statement) == nullptr) return false;
+  const auto called = calledProgram(statement);
+  bool found = false, elsewhere = false;
+  eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
+    if (!called || program.number != *called) return;
+    found = true;
+    elsewhere = elsewhere || std::any_of(program.body.begin(), program.body.end(), [](const auto& one) {
+                  const auto* exit = std::get_if<ir::Exit>(&one.node);
+                  return exit != nullptr && exit->block != nullptr;
+                });
+  });
+  return elsewhere || !found;
+}
+
 // The text ends with it.
 bool isLast(const NcProgram& nc) {
   const auto& programs = nc.file.programs;
@@ -36,9 +53,15 @@ void check(const NcProgram& nc, Report& report) {
   const std::vector<bool> reached = ir::reachable(body, nc.flow());
   bool ends = false;
   bool alarms = false;
+  // A called program may come back at a number that no jump of this one leads to.
+  bool elsewhere = false, otherEnd = false;
   const ir::ProgramStatement* past = nullptr;
   for (std::size_t i = 0; i < body.size(); ++i) {
-    if (!reached[i]) continue;
+    if (!reached[i]) {
+      otherEnd = otherEnd || endsNormally(body[i]);
+      continue;
+    }
+    elsewhere = elsewhere || mayReturnElsewhere(body[i], nc.project);
     ends = ends || endsNormally(body[i]);
     alarms = alarms || std::holds_alternative<ir::Raise>(body[i].node);
     if (!endsNormally(body[i]) && std::find(next[i].begin(), next[i].end(), body.size()) != next[i].end())
@@ -56,7 +79,7 @@ void check(const NcProgram& nc, Report& report) {
         "has "
         "opened: a transfer that broke off leaves this; the control waits for more, or stops with an alarm, "
         "with the spindle and the modes as they are; send the program again");
-  else if (!ends && alarms)
+  else if (!ends && alarms && !(elsewhere && otherEnd))
     report.at(
         program.range,
         "each path through the program ends in an alarm, none in M30 or M99; the end before the alarms is "
