@@ -10,7 +10,8 @@ namespace {
 struct Height {
   std::optional<double> z; // of the last move along Z; nothing: not known
   bool skipped = false;    // a touch went down since
-  double highest = -1e9;   // of plain moves on a way to here: that to an alarm is another way
+  bool touched = false;    // the tool in the spindle has, on some path
+  double highest = -1e9;   // of plain moves of this tool on a path to here: that to an alarm is another
   bool operator==(const Height&) const = default;
 };
 
@@ -27,9 +28,11 @@ void checkProgram(const NcProgram& nc, const Probing& probing, Report& report) {
       body, nc.flow(), Height{},
       [&](std::size_t at, std::size_t, Height height) -> Height {
         const auto* block = std::get_if<ir::NcBlock>(&body[at].node);
+        if (block != nullptr && hasCode(*block, 'M', 6)) return {}; // another tool
         const auto z = block == nullptr ? std::nullopt : wordValue(*block, 'Z');
+        height.touched = height.touched || skipOf(body[at]) != nullptr;
         if (block != nullptr && isPlainMove(body[at]) && z) height.highest = std::max(height.highest, *z);
-        const Height unknown{std::nullopt, false, height.highest};
+        const Height unknown{std::nullopt, false, height.touched, height.highest};
         if (probing.step(body[at]).kind == ProbeStep::Kind::Protected || callOf(body[at]) != nullptr)
           return unknown;
         if (block == nullptr) return height;
@@ -37,11 +40,12 @@ void checkProgram(const NcProgram& nc, const Probing& probing, Report& report) {
           if (hasCode(*block, 'G', code) && axesOf(*block) != 0) return unknown;
         if (!hasWord(*block, 'Z')) return height;
         const bool absolute = statedMode(body[at]).value_or(*modes[at]) == DistanceMode::Absolute;
-        return {absolute ? z : std::nullopt, skipOf(body[at]) != nullptr, height.highest};
+        return {absolute ? z : std::nullopt, skipOf(body[at]) != nullptr, height.touched, height.highest};
       },
       [](Height& into, const Height& other) {
         const Height before = into;
         into.highest = std::max(into.highest, other.highest);
+        into.touched = into.touched || other.touched;
         if (into.z && (into.z != other.z || into.skipped != other.skipped)) {
           into.z.reset();
           into.skipped = false;
@@ -49,7 +53,7 @@ void checkProgram(const NcProgram& nc, const Probing& probing, Report& report) {
         return into != before;
       });
   for (std::size_t i = 0; i < body.size(); ++i) {
-    if (!endsProgram(body[i]) || !heights[i] || !heights[i]->z) continue;
+    if (!endsProgram(body[i]) || !heights[i] || !heights[i]->z || !heights[i]->touched) continue;
     const double highest = heights[i]->highest;
     if (*heights[i]->z >= highest) continue;
     report.at(
