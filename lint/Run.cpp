@@ -1,9 +1,11 @@
 #include "lint/Run.h"
 
+#include "lint/Lathe.h"
 #include "lint/NcProgram.h"
 #include "lint/Shared.h"
 
 #include <algorithm>
+#include <set>
 #include <vector>
 
 namespace dotek::lint {
@@ -13,6 +15,7 @@ namespace {
 template <class Run> struct Chosen {
   Run run;
   Report report;
+  bool ofMills;
 };
 template <class Run>
 std::vector<Chosen<Run>> chosen(Run Rule::*member, const std::vector<const NamedRule*>& rules,
@@ -20,7 +23,7 @@ std::vector<Chosen<Run>> chosen(Run Rule::*member, const std::vector<const Named
   std::vector<Chosen<Run>> out;
   for (const NamedRule* named : rules)
     if (const Run run = named->rule->*member; run != nullptr)
-      out.push_back({run, Report(named->id, named->rule->severity, diagnostics)});
+      out.push_back({run, Report(named->id, named->rule->severity, diagnostics), isOfMills(named->id)});
   return out;
 }
 
@@ -32,20 +35,24 @@ void runRules(const Project& project, Diagnostics& diagnostics,
   for (const NamedRule& named : rules())
     if (wanted(named)) all.push_back(&named);
 
+  std::set<const macrob::File*> lathes;
+  for (const NcFile& nc : project.programs)
+    if (latheMark(*nc.file)) lathes.insert(nc.file);
+
   if (auto parsed = chosen(&Rule::parsed, all, diagnostics); !parsed.empty())
     for (const NcFile& nc : project.programs)
       for (const macrob::Program& program : nc.file->programs) {
         const macrob::CheckedProgram checked(program, project.control, project.sources);
-        for (auto& [run, report] : parsed)
-          run(checked, report);
+        for (auto& [run, report, ofMills] : parsed)
+          if (!ofMills || !lathes.contains(nc.file)) run(checked, report);
       }
   if (auto lowered = chosen(&Rule::program, all, diagnostics); !lowered.empty())
     eachProgram(project, [&](const ir::Program& program, const macrob::File& file) {
       const NcProgram nc(project, program, file);
-      for (auto& [run, report] : lowered)
-        run(nc, report);
+      for (auto& [run, report, ofMills] : lowered)
+        if (!ofMills || !lathes.contains(&file)) run(nc, report);
     });
-  for (auto& [run, report] : chosen(&Rule::check, all, diagnostics))
+  for (auto& [run, report, ofMills] : chosen(&Rule::check, all, diagnostics))
     run(project, report);
 }
 

@@ -1,4 +1,5 @@
 #include "frontend/macrob/Calls.h"
+#include "lint/Lathe.h"
 #include "lint/Project.h"
 
 #include <algorithm>
@@ -38,6 +39,7 @@ bool isListedSwapped(const Code& code, const Project& project) {
 
 // Of one file: what another one has, or suppresses, changes nothing.
 void checkFile(const macrob::File& file, const Project& project, Report& report) {
+  if (latheMark(file)) return;
   std::vector<std::pair<Code, SourceRange>> unlisted; // in the order of the text, each code once
   for (const macrob::Program& program : file.programs)
     for (const macrob::Block& block : program.blocks) {

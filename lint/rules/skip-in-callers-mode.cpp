@@ -1,6 +1,7 @@
 #include "ir/Dataflow.h"
 #include "ir/Evaluate.h"
 #include "ir/Rewrite.h"
+#include "lint/Lathe.h"
 #include "lint/Skips.h"
 
 #include <cmath>
@@ -120,8 +121,8 @@ void checkProgram(const ir::Program& program, const Others& others, Report& repo
 
 void check(const Project& project, Report& report) {
   const Others others = othersOf(project);
-  eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
-    checkProgram(program, others, report);
+  eachProgram(project, [&](const ir::Program& program, const macrob::File& file) {
+    if (!latheMark(file)) checkProgram(program, others, report);
   });
 }
 

@@ -1,0 +1,24 @@
+#include "lint/Lathe.h"
+
+namespace dotek::lint::rule {
+namespace {
+
+void check(const Project& project, Report& report) {
+  for (const NcFile& nc : project.programs)
+    if (const auto mark = latheMark(*nc.file))
+      report.at(mark->range,
+                "this block {}: the program is for a lathe, and the profiles of controls here are for "
+                "machining centres; G90, G92, G10, cycles and offsets mean something else there, and nothing "
+                "is said of them; variables, jumps and calls are checked as usual",
+                mark->what);
+}
+
+} // namespace
+
+DOTEK_LINT_RULE(lathe_program){
+    .severity = Severity::Note,
+    .tier = Tier::Syntax,
+    .check = check,
+};
+
+} // namespace dotek::lint::rule
