@@ -138,7 +138,10 @@ private:
           if (group.kind == Kind::Number) group.kind = resultKind(node.op);
         },
         [&](const Binary& node) { collectBinary(node, group); },
-        [](const OneOf<Constant, NullValue, MeasuredResult> auto&) {});
+        [&](const MeasuredResult& node) {
+          if (group.kind == Kind::Number) group.kind = resultKind(node.name);
+        },
+        [](const OneOf<Constant, NullValue> auto&) {});
   }
 
   void collectBinary(const Binary& node, Group& group) {

@@ -52,6 +52,33 @@ Kind operandKind(UnaryOp op) {
   return Kind::Number;
 }
 
+Kind resultKind(ResultName name) {
+  switch (name) {
+  case ResultName::Angle:
+  case ResultName::AngleY:
+  case ResultName::AngleError:
+  case ResultName::AngleErrorY: return Kind::Angle;
+  case ResultName::PositionX:
+  case ResultName::PositionY:
+  case ResultName::PositionZ:
+  case ResultName::Size:
+  case ResultName::ErrorX:
+  case ResultName::ErrorY:
+  case ResultName::ErrorZ:
+  case ResultName::SizeError:
+  case ResultName::TruePosition:
+  case ResultName::MetalCondition:
+  case ResultName::Maximum:
+  case ResultName::Variation: return Kind::Length;
+  case ResultName::Main:
+  case ResultName::TouchDirection:
+  case ResultName::Hole:
+  case ResultName::OutOfTolerance:
+  case ResultName::ProbeError: break;
+  }
+  return Kind::Number;
+}
+
 Kind resultKind(UnaryOp op) {
   switch (op) {
   case UnaryOp::ArcSine:

@@ -13,6 +13,8 @@ bool keepsKind(UnaryOp op);
 Kind operandKind(UnaryOp op);
 // Angle for the arc functions; Number for the rest.
 Kind resultKind(UnaryOp op);
+// Of what a measurement leaves; Number: none, or that of what was measured (Main).
+Kind resultKind(ResultName name);
 // Both sides and the result are of one kind.
 bool addsKinds(BinaryOp op);
 

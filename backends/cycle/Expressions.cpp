@@ -283,30 +283,7 @@ std::string literal(double value, ir::Kind kind, const std::string& digits) {
 
 ir::Kind kindOf(const State& state, const ir::ExpressionPtr& value) {
   if (const auto* result = std::get_if<ir::MeasuredResult>(&value->node)) {
-    using Name = ir::ResultName;
-    switch (result->name) {
-    case Name::Angle:
-    case Name::AngleY:
-    case Name::AngleError:
-    case Name::AngleErrorY: return ir::Kind::Angle;
-    case Name::TouchDirection:
-    case Name::Hole:
-    case Name::OutOfTolerance:
-    case Name::ProbeError: return ir::Kind::Number;
-    case Name::Main:
-    case Name::PositionX:
-    case Name::PositionY:
-    case Name::PositionZ:
-    case Name::Size:
-    case Name::ErrorX:
-    case Name::ErrorY:
-    case Name::ErrorZ:
-    case Name::SizeError:
-    case Name::TruePosition:
-    case Name::MetalCondition:
-    case Name::Maximum:
-    case Name::Variation: return ir::Kind::Length;
-    }
+    return result->name == ir::ResultName::Main ? ir::Kind::Length : ir::resultKind(result->name);
   }
   if (const auto* binary = std::get_if<ir::Binary>(&value->node)) {
     const ir::Kind left = kindOf(state, binary->left), right = kindOf(state, binary->right);

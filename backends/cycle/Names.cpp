@@ -23,6 +23,11 @@ constexpr std::pair<std::string_view, std::string_view> kHosts[] = {{"tool_radiu
                                                                     {"here_y", "here.y"},
                                                                     {"here_z", "here.z"}};
 
+// Degrees, as labels of dialogs abbreviate them or spell them out.
+constexpr std::string_view kDegrees[] = {"deg",   "degree", "degrees",      "\xC2\xB0",     "grad",
+                                         "gradi", "grado",  "grados",       "degr\xC3\xA9", "degr\xC3\xA9s",
+                                         "graus", "stopni", "stupn\xC4\x9B"};
+
 // What parameters that stand alone in a place are for: names for those whose own are no names.
 class Roles {
 public:
@@ -80,10 +85,17 @@ private:
   std::map<ir::VariableId, std::string> roles_;
 };
 
+bool isDegrees(std::string_view unit) {
+  std::string small;
+  for (const char c : unit)
+    if (c != '.') small += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return std::find(std::begin(kDegrees), std::end(kDegrees), small) != std::end(kDegrees);
+}
+
 ir::Kind kindBy(const ir::Variable& variable) {
   if (variable.kind != ir::Kind::Number) return variable.kind;
   if (variable.unit == "mm" || variable.unit == "in") return ir::Kind::Length;
-  if (variable.unit == "deg" || variable.unit == "degrees") return ir::Kind::Angle;
+  if (isDegrees(variable.unit)) return ir::Kind::Angle;
   return variable.role == ir::Role::Local ? ir::Kind::Number : ir::Kind::Ratio;
 }
 

@@ -69,7 +69,7 @@ public:
     Diagnostics found;
     ReadCycle read(session_);
     if (!read.read(file, text, found) || !read.lowered(found)) {
-      refuse(range, found);
+      refuse(range, found, written->lines);
       return true;
     }
     context_.result.add(file, mapped(read.laidOut(), written->lines));
@@ -83,15 +83,27 @@ private:
     return inputs == nullptr || !inputs->sourceControl ? nullptr : &*inputs->sourceControl;
   }
 
-  // What the checks of the language have against the text.
-  void refuse(SourceRange range, const Diagnostics& found) {
+  // What the checks of the language have against the text, at what the line was written for.
+  void refuse(SourceRange range, const Diagnostics& found, const std::vector<backends::EmittedLine>& lines) {
     for (const Diagnostic& one : found.all()) {
       if (one.severity != Severity::Error) continue;
       std::string line;
-      if (one.range.hasPlace())
-        line = std::string(session_.sources().file(one.range.file).line(session_.sources().line(one.range)));
+      if (one.range.hasPlace()) {
+        const SourceFile& file = session_.sources().file(one.range.file);
+        const std::uint32_t number = session_.sources().line(one.range);
+        line = std::string(file.line(number));
+        if (number > 0 && number <= lines.size())
+          for (const SourceRange& source : lines[number - 1].ranges)
+            if (source.hasPlace()) {
+              range = source;
+              break;
+            }
+      }
+      std::string why = one.message;
+      if (one.code == diag::KindsMixed::code)
+        why += "; a label of the dialog says in what a field counts: `[mm]`, `[deg]`";
       session_.diagnostics().report<diag::CycleFormCannot>(
-          range, line.empty() ? std::string("this cycle") : fmt::format("`{}`", line), one.message);
+          range, line.empty() ? std::string("this cycle") : fmt::format("`{}`", line), why);
       return;
     }
   }

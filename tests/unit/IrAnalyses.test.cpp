@@ -300,6 +300,24 @@ TEST_CASE("ir: locals share with one another, and with arguments that nothing ne
   CHECK(shared(Sharing::Arguments) == std::vector<VariableId>{0, 0});
 }
 
+TEST_CASE("ir: what is compared with a result is of its kind") {
+  Cycle cycle;
+  for (const char* name : {"tilt", "play", "hole", "any"})
+    cycle.add(parameter(name));
+  cycle.addLabel({"l", {}});
+  const auto beyond = [](ResultName name, VariableId limit) {
+    const ExpressionPtr size = unary(UnaryOp::Absolute, result(name));
+    return statement(Branch{compare(Relation::Greater, size, variable(limit)), 0});
+  };
+  cycle.body = {beyond(ResultName::AngleErrorY, 0), beyond(ResultName::TruePosition, 1),
+                beyond(ResultName::Hole, 2), beyond(ResultName::Main, 3), statement(Label{0})};
+  inferKinds(cycle);
+  CHECK(cycle.variables[0].kind == Kind::Angle);
+  CHECK(cycle.variables[1].kind == Kind::Length);
+  CHECK(cycle.variables[2].kind == Kind::Number);
+  CHECK(cycle.variables[3].kind == Kind::Number); // of an angle or of a length
+}
+
 TEST_CASE("ir: a declared kind stays, and of two uses the first counts") {
   Cycle cycle;
   cycle.add(parameter("g", Kind::WorkOffset));
