@@ -96,7 +96,8 @@ private:
       diagnostics().report<diag::CodeElsewhere>(
           range, name,
           fmt::format("calls a program on one of {} and {}, and not the same on the other", from().title,
-                      to().title));
+                      to().title),
+          "write what it does in the source");
       return 0;
     }
     const bool plain = here != nullptr && here->function == Function::Other;
@@ -113,7 +114,14 @@ private:
     }
     if (here == nullptr) {
       diagnostics().report<diag::CodeElsewhere>(
-          range, name, "is in no table of " + from().title + ", so that what it does is not known");
+          range, name, "is in no table of " + from().title + ", so that what it does is not known",
+          fmt::format(
+              "{}a file of your own for the control says what it does (`dotek new control NAME --from {}`)",
+              letter == 'M' ? fmt::format("where it switches the probe, say so: `--probe-on {0}` or "
+                                          "`--probe-off {0}`; else ",
+                                          name)
+                            : "",
+              from().name));
       return 0;
     }
     const CodeInfo* other = plain || ofLanguage ? nullptr : to().find(here->function);
@@ -131,7 +139,8 @@ private:
         range, name,
         there == nullptr ? fmt::format("({}) is not in the table of {}", here->title, to().title)
                          : fmt::format("is `{}` on {} and `{}` on {}", here->title, from().title,
-                                       there->title, to().title));
+                                       there->title, to().title),
+        "write what it does in the source");
     return 0;
   }
 
