@@ -88,6 +88,14 @@ void cycle(State& state, const ir::CallCycle& cycle, std::size_t index) {
     state.oneOfSeveral = false;
     return;
   }
+  if (cycle.cycle == stdlib::intentName(stdlib::Intent::InnerCorner)) {
+    const std::string target(stdlib::roleName(stdlib::ArgumentRole::Target));
+    if (takes(state, cycle, {target + " x", target + " y"}, range))
+      state.refuse<diag::MikroprogCannot>(range,
+                                          "an inner corner whose two surfaces the call does not both state",
+                                          "print touches of single surfaces instead");
+    return;
+  }
   const bool surface = cycle.cycle == stdlib::intentName(stdlib::Intent::Surface);
   const bool pocket = cycle.cycle == stdlib::intentName(stdlib::Intent::Pocket);
   const bool web = cycle.cycle == stdlib::intentName(stdlib::Intent::Web);
