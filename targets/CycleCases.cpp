@@ -15,6 +15,7 @@
 #include "support/messages/Commands.h"
 #include "support/messages/Gibbs.h"
 #include "support/messages/Verify.h"
+#include "targets/CycleFields.h"
 #include "targets/DialogChoices.h"
 #include "targets/NominalFields.h"
 #include "targets/ReadBack.h"
@@ -127,7 +128,14 @@ bool CaseRunner::prepare() {
   std::vector<std::string> hosts;
   for (const stdlib::HostInput& host : stdlib::kHostInputs)
     if (!host.ofCyclesAlone) hosts.emplace_back(host.name);
-  draws_.emplace(plan_.fields, std::move(hosts), plan_.fixedHosts, options_.seed, plan_.bounds,
+  std::vector<verify::DrawField> near = plan_.fields, wide = plan_.fields;
+  for (std::size_t i = 0; i < near.size(); ++i)
+    if (std::erase(near[i].thresholds, kBeyondMeasured) > 0) {
+      wide[i].thresholds = {kBeyondMeasured};
+      wide[i].initial.reset(); // it led to nothing
+    }
+  wide_.emplace(std::move(wide), hosts, plan_.fixedHosts, options_.seed, plan_.bounds, options_.cases);
+  draws_.emplace(std::move(near), std::move(hosts), plan_.fixedHosts, options_.seed, plan_.bounds,
                  options_.cases);
   sourceSet_ = session_.macroSet(plan_.sourceMacros);
   std::vector<const stdlib::MacroSet*> sets;

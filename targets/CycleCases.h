@@ -76,7 +76,8 @@ private:
   struct Values; // of one case, after the checks
   class Questions;
   std::unique_ptr<Values> check(verify::Case drawn, bool settle);
-  std::optional<verify::Case> drawFrom(std::uint64_t index, std::uint32_t tries, std::uint32_t end);
+  std::optional<verify::Case> drawFrom(std::uint64_t index, std::uint32_t tries, std::uint32_t end,
+                                       bool wide);
   bool passesUnstated() const;
   bool halvesBetweenSteps(const ir::Program& program) const;
   verify::Case settled(verify::Case drawn);
@@ -127,6 +128,7 @@ private:
   const frontend::compost::Routine* routine_ = nullptr;
   std::optional<FieldTable> fields_;
   std::optional<verify::Draws> draws_;
+  std::optional<verify::Draws> wide_; // limits of what is measured are often far beyond it
   std::string refusal_;
   SourceRange refusedAt_;   // by a check
   Rejections rejected_;     // of the last draw()

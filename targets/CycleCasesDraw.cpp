@@ -22,17 +22,17 @@ constexpr std::uint64_t kCallerCases = 8; // in which callers break what the tra
 
 std::optional<verify::Case> CaseRunner::draw(std::uint64_t index) {
   rejected_.clear();
-  return drawFrom(index, 0, kAttempts);
+  return drawFrom(index, 0, kAttempts, false);
 }
 
 std::optional<verify::Case> CaseRunner::another(std::uint64_t index) {
   if (options_.replay) return std::nullopt;
-  return drawFrom(index, tries_, std::min(kAttempts, tries_ + kMoreAttempts));
+  return drawFrom(index, tries_, std::min(kAttempts, tries_ + kMoreAttempts), true);
 }
 
 // Proposals from `tries` on, up to `end`.
-std::optional<verify::Case> CaseRunner::drawFrom(std::uint64_t index, std::uint32_t tries,
-                                                 std::uint32_t end) {
+std::optional<verify::Case> CaseRunner::drawFrom(std::uint64_t index, std::uint32_t tries, std::uint32_t end,
+                                                 bool wide) {
   const auto isForeseen = [&](const verify::Case& proposal) {
     if (plan_.bounds == nullptr || plan_.findsMacros) return false;
     if (plan_.hostDecimals.empty()) return plan_.bounds->rejects(proposal);
@@ -42,7 +42,7 @@ std::optional<verify::Case> CaseRunner::drawFrom(std::uint64_t index, std::uint3
   };
   std::unique_ptr<Values> values;
   const auto proposed = [&](std::uint32_t which) {
-    verify::Case proposal = draws_->propose(index, which);
+    verify::Case proposal = (wide ? wide_ : draws_)->propose(index, which);
     if (options_.activeSystem) proposal.system = *options_.activeSystem;
     proposal.callers = plan_.translation && (index < kCallerCases || options_.replay);
     if (options_.partError) {

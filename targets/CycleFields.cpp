@@ -2,11 +2,14 @@
 
 #include "frontend/gibbs/Ast.h"
 #include "frontend/gibbs/Cycle.h"
+#include "ir/Match.h"
 #include "ir/Rewrite.h"
 #include "ir/Walk.h"
 
 #include <algorithm>
+#include <functional>
 #include <map>
+#include <set>
 #include <utility>
 
 namespace dotek::targets {
@@ -88,6 +91,51 @@ bool computesPlaces(const ir::Cycle& cycle) {
   return false;
 }
 
+// Parameters that the body compares with what was measured, alone on their side, and does not read elsewhere.
+std::set<ir::VariableId> limitsOf(const ir::Cycle& cycle) {
+  const auto isMeasured = [](const ir::ExpressionPtr& value) {
+    bool out = false;
+    ir::eachNode(value, [&](const ir::Expression& node) {
+      out = out || std::holds_alternative<ir::MachineVariable>(node.node) ||
+            std::holds_alternative<ir::MeasuredResult>(node.node);
+    });
+    return out;
+  };
+  std::map<ir::VariableId, std::size_t> reads, compared;
+  const auto count = [](std::map<ir::VariableId, std::size_t>& into) {
+    return [&into](const ir::Expression& node) {
+      if (const auto* use = std::get_if<ir::VariableUse>(&node.node)) ++into[use->variable];
+    };
+  };
+  const std::function<void(const ir::Condition&)> look = [&](const ir::Condition& condition) {
+    ir::match(
+        condition,
+        [&](const ir::Comparison& node) {
+          for (const auto& [one, other] :
+               {std::pair(node.left, node.right), std::pair(node.right, node.left)}) {
+            std::map<ir::VariableId, std::size_t> alone;
+            ir::eachNode(one, count(alone));
+            if (alone.size() == 1 && !isMeasured(one) && isMeasured(other))
+              compared[alone.begin()->first] += alone.begin()->second;
+          }
+        },
+        [&](const ir::Not& node) { look(*node.inner); },
+        [&](const ir::Junction& node) {
+          look(*node.left);
+          look(*node.right);
+        },
+        [](const ir::OneOf<ir::IsNull, ir::Truth> auto&) {});
+  };
+  for (const ir::CycleStatement& one : cycle.body) {
+    ir::eachNode(one, count(reads));
+    if (const ir::ConditionPtr* condition = ir::conditionOf(one)) look(**condition);
+  }
+  std::set<ir::VariableId> out;
+  for (const auto& [id, times] : compared)
+    if (reads[id] == times) out.insert(id);
+  return out;
+}
+
 // The height at the entry is read before anything moves.
 bool readsEntryHeight(const ir::Cycle& cycle, const stdlib::Control& control) {
   bool reads = false;
@@ -133,6 +181,7 @@ void takeFields(const LoweredCycle& lowered, const CycleFolder& folder, const Lo
   if (inputs.sourceControl) plan.startsOnRetract = readsEntryHeight(lowered.cycle, *inputs.sourceControl);
   plan.bounds = std::make_shared<verify::Bounds>(lowered.cycle);
   const std::set<double> compared = ir::constantsOf(lowered.cycle.checks);
+  const std::set<ir::VariableId> limits = limitsOf(lowered.cycle);
   const std::map<std::string, std::vector<double>> offered = offeredIn(folder);
   for (ir::VariableId id = 0; id < lowered.cycle.variables.size(); ++id) {
     const ir::Variable& variable = lowered.cycle.variable(id);
@@ -145,6 +194,7 @@ void takeFields(const LoweredCycle& lowered, const CycleFolder& folder, const Lo
     if (const auto places = decimals.find(id); places != decimals.end()) field.decimals = places->second;
     if (const auto list = offered.find(gibbs::foldCase(variable.name)); list != offered.end())
       field.choices = list->second;
+    if (limits.contains(id)) field.thresholds.push_back(kBeyondMeasured);
     add(std::move(field), inputs, plan);
   }
 }
