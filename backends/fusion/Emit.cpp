@@ -126,6 +126,16 @@ std::optional<std::vector<EmittedLine>> emit(const ir::Cycle& cycle, const EmitO
              "));");
   script.add("return true;");
   script.close();
+  if (!options.call) {
+    // The macros travel from where the probe is, and no block of the cycle goes to a further point.
+    script.open("if (!isFirstCyclePoint()) {");
+    script.add("error(localize(" +
+               quoted(cycle.name + ": nothing moves to a further point of the operation; give each point an "
+                                   "operation of its own") +
+               "));");
+    script.add("return true;");
+    script.close();
+  }
   script.add(state.prefix + "_write(x, y, z);");
   script.add("return true;");
   script.close("default:");

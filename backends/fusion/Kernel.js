@@ -322,7 +322,7 @@ function createModalGroup(specifiers, groups, format) {
 
 // The text that is written, its end in `text`: of long texts, all before is in `before`.
 var dotekState = {text: "", before: [], size: 0, most: undefined, flood: false, buffer: null, separator: " ",
-  eol: "\n", errors: [], warnings: [], log: [], afterError: false, told: {}};
+  eol: "\n", errors: [], warnings: [], log: [], afterError: false, told: {}, point: 0};
 
 function write(text) {
   if (dotekState.buffer !== null) {
@@ -403,6 +403,10 @@ function getRedirectionBuffer() {
 }
 function closeRedirection() {
   dotekState.buffer = null;
+}
+
+function isFirstCyclePoint() {
+  return dotekState.point === 0;
 }
 
 // Whether the kernel stops a script here is unproven: the double goes on and says what was written after it.
@@ -527,6 +531,7 @@ function dotekRun(input) {
     throw new Error("there is no function `" + input.entry + "`");
   }
   for (var i = 0; i < input.points.length; ++i) {
+    dotekState.point = i;
     for (var j = 0; input.entry !== undefined && j < dotekOutputs.length; ++j) {
       if (global[dotekOutputs[j]] !== undefined) {
         global[dotekOutputs[j]].format(1);

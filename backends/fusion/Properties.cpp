@@ -182,7 +182,8 @@ void writeHead(State& state) {
       "Needs of the post: writeBlock(text), which puts the block number before; xOutput, yOutput, zOutput, "
       "feedOutput, gMotionModal, which are reset after the macros. Comments go through writeComment(text) "
       "where the post has it. Kernel: writeln, error, warning, "
-      "localize, createFormat.");
+      "localize, createFormat" +
+      std::string(state.options.call ? "." : ", isFirstCyclePoint."));
   script.comment("Dispatch: onCyclePoint(x, y, z) begins with  if (" + state.prefix +
                  "_dispatch(x, y, z)) { return; }");
   script.comment(

@@ -341,15 +341,22 @@ TEST_CASE("a whole post runs from beginning to end") {
   const std::string post = fragmentOf(convert);
   fusion::RunInput input;
   input.cycle["clearance"] = 5;
-  input.points = {{1, 2, 3}, {4, 5, 6}};
+  input.points = {{1, 2, 3}};
   const fusion::RunResult run = runPost(post, "bore", input);
   CHECK_MESSAGE(run.ok(), reportOf(run));
   const auto lines = withoutNumbers(run.text);
   CHECK(lines.front() == "%");
   CHECK(lines.back() == "%");
-  CHECK(std::count(lines.begin(), lines.end(), "G65 P9023 D40. S55. I0 J0") == 2);
+  CHECK(std::count(lines.begin(), lines.end(), "G65 P9023 D40. S55. I0 J0") == 1);
   CHECK(runPost(post, "surfaceX", input).text.find("P9023 S55. X12. I0") != std::string::npos);
-  CHECK(runPost(post, "nothing", input).errors.size() == 2);
+  CHECK(runPost(post, "nothing", input).errors.size() == 1);
+  // Nothing moves between two points, so a measurement at the second would start at the first.
+  input.points.push_back({4, 5, 6});
+  const fusion::RunResult further = runPost(post, "bore", input);
+  REQUIRE(further.errors.size() == 1);
+  CHECK(further.errors.front().find("further point of the operation") != std::string::npos);
+  const auto printed = withoutNumbers(further.text);
+  CHECK(std::count(printed.begin(), printed.end(), "G65 P9023 D40. S55. I0 J0") == 1);
 }
 
 TEST_CASE("fragments share their functions: --helpers gives them once, whatever the cycles") {
