@@ -11,6 +11,7 @@
 #include "ir/Fold.h"
 #include "ir/Print.h"
 #include "project/Compilation.h"
+#include "project/CycleChecks.h"
 #include "project/CycleFiles.h"
 #include "project/CycleLowering.h"
 #include "project/CycleValues.h"
@@ -259,6 +260,34 @@ private:
     if (file) out_ += ir::print(*file, &session_.sources());
   }
 
+  // What CycleData.mac computes beside its dialog is what the path is drawn with.
+  void takeComputed(const CycleFolder& folder, FieldTable& fields,
+                    const std::map<std::string, double>& hosts) {
+    if (!folder.cycle->cycleData) return;
+    const std::map<std::string, double> given = fields.macroValues();
+    Diagnostics unsaid; // of values that the dialog rejects; `lint` and `post` say it
+    gibbs::RunContext context{
+        session_.sources(),
+        session_.gibbsKeywords(),
+        session_.limits(),
+        unsaid,
+        given,
+        hosts,
+        options_.common.assume,
+        [&](const std::string& name, SourceRange where) { return folder.loader->macro(name, where); },
+        [&](const std::string& name, SourceRange where) { return folder.loader->dialog(name, where); }};
+    std::map<std::string, double> values = given;
+    project::takeComputed(gibbs::runChecks(*folder.cycle->cycleData, context), folder, session_, values);
+    for (const auto& [name, value] : values) {
+      const auto was = given.find(name);
+      if (was != given.end() && was->second == value) continue;
+      session_.diagnostics().report<diag::FieldComputed>(
+          {folder.cycle->cycleData->file, 0, 0}, name, numberText(value),
+          was == given.end() ? "nothing" : numberText(was->second));
+      fields.change(name, value);
+    }
+  }
+
   // The moves that ToolPath.mac writes for the given values: a dry run outside the CAM.
   void path(const std::string& input) {
     const CycleFolder& folder = compilation_.addFolder(input);
@@ -272,13 +301,16 @@ private:
         session_.diagnostics().report<diag::NoSuchField>({}, name, folder.name, fields.hint(name));
       }
     }
+    const std::map<std::string, double> hosts = parseHosts(options_.common.host, session_.diagnostics());
+    if (session_.diagnostics().hasErrors()) return;
+    takeComputed(folder, fields, hosts);
     gibbs::RunContext context{
         session_.sources(),
         session_.gibbsKeywords(),
         session_.limits(),
         session_.diagnostics(),
         fields.macroValues(),
-        parseHosts(options_.common.host, session_.diagnostics()),
+        hosts,
         options_.common.assume,
         [&](const std::string& name, SourceRange where) { return folder.loader->macro(name, where); },
         [&](const std::string& name, SourceRange where) { return folder.loader->dialog(name, where); }};

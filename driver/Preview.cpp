@@ -4,6 +4,7 @@
 #include "frontend/gibbs/Labels.h"
 #include "frontend/gibbs/Run.h"
 #include "project/Compilation.h"
+#include "project/CycleChecks.h"
 #include "project/Fields.h"
 #include "project/Hosts.h"
 #include "project/Prog.h"
@@ -76,7 +77,9 @@ public:
         height = std::max(height, box.height + (window ? 0 : box.top));
         out += shape;
       }
-      const bool shown = kind == "DIALOG" || kind == "DROPDOWN_ADD" || (control.box && !shape.empty());
+      // Entries and value of a list are in the list.
+      const bool shown = kind == "DIALOG" || kind == "DROPDOWN_ADD" || kind == "DROPDOWN_VAL" ||
+                         (control.box && !shape.empty());
       if (!shown) {
         const SourceFile& file = session_.sources().file(control.range.file);
         notes.push_back(fmt::format(
@@ -208,8 +211,7 @@ std::string reasons(const Diagnostics& found) {
   return xmlText(out);
 }
 
-std::string checked(const gibbs::Macro& macro, gibbs::RunContext context, Diagnostics& found) {
-  const gibbs::ChecksResult result = gibbs::runChecks(macro, context);
+std::string checked(const gibbs::ChecksResult& result, const Diagnostics& found) {
   std::string out;
   for (const gibbs::Rejection& one : result.rejections)
     out += note(one.text.empty() ? "rejected without a message" : xmlText(one.text), "bad");
@@ -219,8 +221,10 @@ std::string checked(const gibbs::Macro& macro, gibbs::RunContext context, Diagno
   for (const auto& [name, value] : result.changed)
     changed += fmt::format("{}{} = {}", changed.empty() ? "" : ", ", name, shortNumber(value, 6));
   if (!changed.empty())
-    out += note("The macro changes values after the dialog, which the page shows as they were: " +
-                xmlText(changed));
+    out += note(
+        "The macro changes values after the dialog, which the inputs show as they were; the path is drawn "
+        "with those that no input holds: " +
+        xmlText(changed));
   using Verdict = gibbs::ChecksResult::Verdict;
   if (result.verdict == Verdict::Passes) return out + "<p>The values pass.</p>\n";
   if (result.verdict == Verdict::Rejected) return out + note("The values are rejected.", "bad");
@@ -234,6 +238,7 @@ std::string checked(const gibbs::Macro& macro, gibbs::RunContext context, Diagno
 
 std::string page(const CycleFolder& folder, const FieldTable& fields, Session& session) {
   const std::map<std::string, double> values = fields.macroValues();
+  std::map<std::string, double> stored = values;
   std::vector<std::string> notes;
   Form form(folder, session, values);
   const std::string window = form.make(notes);
@@ -262,9 +267,13 @@ std::string page(const CycleFolder& folder, const FieldTable& fields, Session& s
   out += window;
   for (const std::string& one : notes)
     out += note(one);
-  out += "<h2>Checks</h2>\n" + checked(*folder.cycle->cycleData, context(ofChecks), ofChecks);
+  gibbs::RunContext forChecks = context(ofChecks);
+  const gibbs::ChecksResult result = gibbs::runChecks(*folder.cycle->cycleData, forChecks);
+  out += "<h2>Checks</h2>\n" + checked(result, ofChecks);
   out += "<h2>Path</h2>\n";
+  project::takeComputed(result, folder, session, stored);
   gibbs::RunContext forPath = context(ofPath);
+  forPath.fields = stored;
   const auto path = gibbs::runToolPath(*folder.cycle->toolPath, forPath);
   if (!path)
     out += note("The path is not drawn: " + reasons(ofPath));

@@ -29,6 +29,10 @@ bool boundByDialog(const CycleFolder& folder, const std::string& folded) {
   });
 }
 
+bool isStored(const CycleFolder& folder, const Session& session, const std::string& name) {
+  return !boundByDialog(folder, name) || session.options().assume.contains("changed-field=macro");
+}
+
 // The CAM stores a variable as the macro leaves it. That is certain enough where the user cannot type the
 // value; where he can, which of the two is stored is not known.
 void takeChanges(const gibbs::ChecksResult& result, const CycleFolder& folder, FieldTable& fields,
@@ -41,7 +45,7 @@ void takeChanges(const gibbs::ChecksResult& result, const CycleFolder& folder, F
     const auto before = fields.macroValues();
     const auto given = before.find(name);
     const std::string was = given == before.end() ? "nothing" : numberText(given->second);
-    if (!boundByDialog(folder, name) || session.options().assume.contains("changed-field=macro")) {
+    if (isStored(folder, session, name)) {
       session.diagnostics().report<diag::FieldComputed>(where, name, numberText(value), was);
       fields.change(name, value);
     } else if (!session.options().assume.contains("changed-field=given")) {
@@ -94,6 +98,14 @@ std::string rejectedValues(const std::vector<std::pair<std::string, double>>& va
                                      : ", `") +
            values[i].first + "` = " + numberText(values[i].second);
   return out;
+}
+
+void takeComputed(const gibbs::ChecksResult& result, const CycleFolder& folder, const Session& session,
+                  std::map<std::string, double>& values) {
+  using Verdict = gibbs::ChecksResult::Verdict;
+  if (result.verdict != Verdict::Passes && result.verdict != Verdict::Depends) return;
+  for (const auto& [name, value] : result.changed)
+    if (isStored(folder, session, name)) values[name] = value;
 }
 
 void runCycleChecks(const CycleFolder& folder, FieldTable& fields, const std::map<std::string, double>& hosts,

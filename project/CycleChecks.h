@@ -1,11 +1,13 @@
-// Private to the project: the checks of CycleData.mac, run on the values that are posted.
+// The checks of CycleData.mac, run on the values that are posted.
 #pragma once
 
+#include "frontend/gibbs/Run.h"
 #include "project/CycleFolder.h"
 #include "project/Fields.h"
 #include "project/Session.h"
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,6 +19,11 @@ std::string rejectedValues(const std::vector<std::pair<std::string, double>>& va
 
 // Whether a rejection names the fields whose values cause it, which costs many runs of the checks.
 enum class Blame : std::uint8_t { Fields, Nothing };
+
+// What the macro computes after the dialog, as the CAM stores it, into `values`. A field that the dialog
+// shows keeps what the user typed, unless an assumption says otherwise.
+void takeComputed(const frontend::gibbs::ChecksResult& result, const CycleFolder& folder,
+                  const Session& session, std::map<std::string, double>& values);
 
 // Reports values that the dialog would not let pass; takes over values that the macro computes.
 void runCycleChecks(const CycleFolder& folder, FieldTable& fields, const std::map<std::string, double>& hosts,
