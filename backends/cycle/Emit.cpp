@@ -117,6 +117,31 @@ std::vector<EmittedLine> requirements(State& state, const Checked& checked) {
   return out;
 }
 
+// What lists offer of the work offsets: the type is G54 to G59, so a list of all six says nothing. They come
+// after the checks, as the values of a list do in the dialog.
+void offeredSystems(State& state, const Emitted& out, std::vector<EmittedLine>& lines) {
+  for (const auto& [id, choices] : state.options.choices) {
+    const ir::Variable& variable = state.cycle.variable(id);
+    if (variable.kind != ir::Kind::WorkOffset || variable.role != ir::Role::Parameter) continue;
+    const auto found = out.parameters.find(variable.name);
+    if (found == out.parameters.end()) continue;
+    const auto counted = state.shifts.find(id);
+    std::set<double> systems;
+    for (const Choice& one : choices) {
+      const double value = one.value + (counted == state.shifts.end() ? 0 : counted->second);
+      if (value >= 54 && value <= 59 && value == std::floor(value)) systems.insert(value);
+    }
+    if (systems.empty() || systems.size() == 6) continue;
+    std::string condition;
+    for (const double value : systems)
+      condition += fmt::format("{}{} is {}", condition.empty() ? "" : " or ", state.names.at(id),
+                               literal(value, ir::Kind::WorkOffset));
+    lines.push_back({fmt::format("require {}{}", condition, quoted(variable.name + " is not in its list")),
+                     {variable.range},
+                     ""});
+  }
+}
+
 // What the checks compute for the body.
 std::vector<EmittedLine> locals(State& state, const Checked& checked) {
   std::set<ir::VariableId> read;
@@ -172,6 +197,7 @@ std::optional<Emitted> emit(const ir::Cycle& cycle, const EmitOptions& options, 
     required = requirements(state, *checked);
     computed = locals(state, *checked);
   }
+  offeredSystems(state, out, required);
   writeBody(state);
   dropUnread(state);
   if (state.failed) return std::nullopt;
