@@ -265,10 +265,16 @@ bool Lowering::isTyped(const std::string& name) const {
 // false: it was given a value.
 bool Lowering::takeComputed() {
   std::map<ir::VariableId, const ir::CycleStatement*> assigned;
+  std::map<ir::VariableId, std::set<std::string>> formulas; // as the macro spells them
   for (const ir::CycleStatement& statement : cycle().checks)
     if (const auto* assign = std::get_if<ir::Assign>(&statement.node))
-      if (cycle().variable(assign->variable).role == ir::Role::Parameter)
+      if (cycle().variable(assign->variable).role == ir::Role::Parameter) {
         assigned.emplace(assign->variable, &statement);
+        const SourceRange range = statement.origin.range();
+        const SourceFile& file = session_.sources().file(range.file);
+        formulas[assign->variable].insert(
+            toUtf8(file.bytes().substr(range.begin, range.end - range.begin), file.encoding()));
+      }
   if (assigned.empty()) return true;
   const std::set<ir::VariableId> live = ir::liveAtEntry(cycle().checks, ir::liveAtEntry(cycle().body, {}));
   bool good = true;
@@ -286,9 +292,8 @@ bool Lowering::takeComputed() {
     variable.role = ir::Role::Local;
     variable.defaultValue.reset();
     variable.optional = false;
-    const SourceFile& file = session_.sources().file(range.file);
-    out_.computed.emplace(id,
-                          toUtf8(file.bytes().substr(range.begin, range.end - range.begin), file.encoding()));
+    const std::set<std::string>& ways = formulas.at(id);
+    out_.computed.emplace(id, ways.size() == 1 ? *ways.begin() : variable.name + " IN SEVERAL WAYS");
   }
   return good;
 }
