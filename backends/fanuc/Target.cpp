@@ -1,6 +1,7 @@
 // convert --to fanuc.
 #include "targets/Target.h"
 #include "backends/fanuc/Emit.h"
+#include "backends/fanuc/TargetEarly.h"
 #include "backends/fanuc/TargetPrograms.h"
 #include "backends/fanuc/TargetVerify.h"
 #include "backends/fanuc/TargetVerifyPrograms.h"
@@ -90,6 +91,7 @@ public:
     std::vector<fanuc::Argument> letters;
     const auto lines = written(lowered.cycle, emit, ofLanguage, letters);
     if (!lines) return true;
+    warnOfEarlyReads(*lines, *inputs.control, session_);
     std::vector<OutputArgument> arguments;
     for (const fanuc::Argument& one : letters)
       arguments.push_back({lowered.cycle.variable(one.variable).name, one.letter});

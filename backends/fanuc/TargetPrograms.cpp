@@ -2,6 +2,7 @@
 
 #include "backends/fanuc/Program.h"
 #include "backends/fanuc/ProgramCalls.h"
+#include "backends/fanuc/TargetEarly.h"
 #include "project/Lowering.h"
 #include "project/Programs.h"
 #include "support/messages/Commands.h"
@@ -82,6 +83,7 @@ void ProgramConversion::convert(const std::string& path, ConversionResult& resul
   emit.plainMessages = options_.common.assume.contains("plain-messages");
   const auto lines = fanuc::emitPrograms(*programs, emit, session_.sources(), session_.diagnostics());
   if (!lines) return;
+  warnOfEarlyReads(*lines, *control_, session_);
   result.add(options_.programNumber ? fmt::format("O{:04}.nc", *options_.programNumber)
                                     : std::filesystem::path(path).stem().generic_string() + ".nc",
              *lines);
