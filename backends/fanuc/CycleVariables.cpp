@@ -161,7 +161,10 @@ std::string copiedText(State& state, const ir::OpaqueBlock& block, const ir::Ori
           from.decimal == stdlib::DecimalMode::Increment ? *number * from.increment : *number;
       text += word(state, given.address, ir::constant(value, given.range), Form::Length, origin);
     } else {
-      text += word(state, given.address, given.value, Form::Source, origin);
+      // The control refuses a point there, which a picture of lengths may have printed.
+      const bool whole = number != nullptr && *number == std::round(*number) &&
+                         std::string_view("MST").find(given.address) != std::string_view::npos;
+      text += word(state, given.address, given.value, whole ? Form::Whole : Form::Source, origin);
     }
   }
   if (!foreign.empty()) {
