@@ -153,6 +153,28 @@ void refuseMeasured(const ir::Cycle& cycle, Diagnostics& diagnostics) {
         "the control computes nothing with a contact; touch from places that are known before");
 }
 
+// Values that no step needs, also those of a function that not every number has, which folding keeps.
+void dropUnneeded(ir::Cycle& cycle) {
+  std::set<ir::VariableId> needed;
+  const auto take = [&](const ir::Expression& node) {
+    const auto* use = std::get_if<ir::VariableUse>(&node.node);
+    return use != nullptr && needed.insert(use->variable).second;
+  };
+  for (bool grown = true; grown;) {
+    grown = false;
+    for (const auto* list : {&cycle.checks, &cycle.body})
+      for (const ir::CycleStatement& statement : *list) {
+        const auto* set = std::get_if<ir::Assign>(&statement.node);
+        if (set != nullptr && list == &cycle.body && !needed.contains(set->variable)) continue;
+        ir::eachNode(statement, [&](const ir::Expression& node) { grown = take(node) || grown; });
+      }
+  }
+  std::erase_if(cycle.body, [&](const ir::CycleStatement& statement) {
+    const auto* set = std::get_if<ir::Assign>(&statement.node);
+    return set != nullptr && !needed.contains(set->variable);
+  });
+}
+
 } // namespace
 
 void prepareCycle(project::LoweredCycle& lowered, Diagnostics& diagnostics) {
@@ -198,6 +220,7 @@ void joinSettings(ir::Cycle& cycle, Diagnostics& diagnostics) {
     }
     list.erase(list.begin() + static_cast<std::ptrdiff_t>(i--));
   }
+  dropUnneeded(cycle);
   ir::fold(cycle, {}, {true, 100000}); // what only the settings have read is gone
   refuseMeasured(cycle, diagnostics);
 }
