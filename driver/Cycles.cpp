@@ -4,6 +4,7 @@
 #include "frontend/cycle/Words.h"
 #include "frontend/macrob/Format.h"
 #include "frontend/macrob/Parse.h"
+#include "lint/Suppressions.h"
 #include "project/CycleCatalogue.h"
 #include "project/CycleFiles.h"
 #include "project/CycleLowering.h"
@@ -104,9 +105,16 @@ Outcome check(const CycleOptions& options) {
   return guarded(options.common, [&](Session& session) {
     checkSettings(options.inputs, session); // a finding beside the others
     CycleFiles cycles(session);
+    std::vector<FileId> checked;
     if (hasInputs(options, "check", session))
       for (const std::string& path : options.inputs)
-        if (kindAmong(path, {InputKind::Cycle}, kExpected, session)) checkCycleFile(path, cycles, session);
+        if (kindAmong(path, {InputKind::Cycle}, kExpected, session))
+          if (const auto file = checkCycleFile(path, cycles, session)) checked.push_back(*file);
+    // What meets nothing is a finding of lint, which knows all rules.
+    std::vector<lint::Suppression> suppressions =
+        lint::suppressionsOf(checked, session.sources(), session.diagnostics());
+    lint::applySuppressions(suppressions, session.sources(), session.diagnostics(),
+                            [](std::string_view, FileId) { return false; });
     return outcomeOf(session, "", true);
   });
 }

@@ -523,7 +523,7 @@ Outcome proposed(LintOptions options) {
                                : fmt::format("{} repair{} in {} file{} would be made; nothing is changed",
                                              repairs, repairs == 1 ? "" : "s", found.files.size(),
                                              found.files.size() == 1 ? "" : "s");
-  if (repairs > 0) found.status = 1;
+  found.status = repairs > 0 ? 1 : 0; // a gate for repairs that wait; findings are lint's
   return found;
 }
 

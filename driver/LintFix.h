@@ -31,7 +31,7 @@ std::vector<MadeFix> applySafeFixes(const Outcome& outcome, const Limits& limits
 void reportFixes(const std::vector<MadeFix>& made, Outcome& outcome);
 
 // What lint with `fix` would write, as `files`; nothing is written. `sources` holds the texts as they are,
-// the summary says how much is repaired. The status is 1 where a repair is proposed, else that of lint.
+// the summary says how much is repaired. The status is 1 where a repair is proposed, else 0.
 Outcome proposeFixes(const LintOptions& options);
 
 } // namespace dotek::driver
