@@ -52,16 +52,52 @@ std::string deedText(const Deed& deed) {
   return "";
 }
 
-// A program that is written says it in capitals, and cuts what the operator reads to what a control shows,
-// after a whole word. `most`: characters that it shows.
+bool isLetter(char c) {
+  return (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+}
+
+// Whether `shown` is what a control shows of `text`, signs aside: of a letter that it does not have up to two
+// stand for it. `most`: characters that it shows.
+bool shows(std::string_view text, std::string_view shown, std::size_t most) {
+  const auto isAscii = [](char c) { return static_cast<unsigned char>(c) < 0x80; };
+  std::set<std::pair<std::size_t, std::size_t>> open = {{0, 0}}; // how far both have been read
+  while (!open.empty()) {
+    auto [at, in] = open.extract(open.begin()).value();
+    while (at < text.size() && isAscii(text[at]) && !isLetter(text[at]))
+      ++at;
+    while (in < shown.size() && !isLetter(shown[in]))
+      ++in;
+    if (at == text.size() && in == shown.size()) return true;
+    if (at == text.size()) continue;
+    if (in == shown.size()) {
+      // Cut after a whole word.
+      const bool begins = at == 0 || !isLetter(text[at - 1]);
+      if (begins && std::min(text.find(' ', at), text.size()) > most) return true;
+    }
+    if (isAscii(text[at])) {
+      if (in < shown.size() && text[at] == shown[in]) open.emplace(at + 1, in + 1);
+      continue;
+    }
+    std::size_t next = at + 1; // a letter of more bytes
+    while (next < text.size() && (static_cast<unsigned char>(text[next]) & 0xC0) == 0x80)
+      ++next;
+    for (std::size_t letters = 0; letters <= 2 && in + letters <= shown.size(); ++letters)
+      open.emplace(next, in + letters);
+  }
+  return false;
+}
+
+// A program that is written says it in capitals without the signs that the control does not have, and cuts
+// what the operator reads to what it shows, after a whole word.
 bool sameStop(const Deed& source, const Deed& target, std::size_t most) {
+  constexpr std::size_t kLongest = 200; // of texts whose letters are tried
   const std::string text = upperCase(source.text), shown = upperCase(target.text);
-  if (source.kind != Deed::Kind::Stop || target.kind != Deed::Kind::Stop || shown.empty() ||
-      !text.starts_with(shown))
-    return false;
+  if (source.kind != Deed::Kind::Stop || target.kind != Deed::Kind::Stop || shown.empty()) return false;
   if (text == shown) return true;
-  const std::size_t next = text.find(' ', shown.size() + 1);
-  return std::min(next, source.text.size()) > most;
+  if (text.size() > kLongest) return text.starts_with(shown);
+  const bool says =
+      std::any_of(text.begin(), text.end(), [](char c) { return isLetter(c) || (c & 0x80) != 0; });
+  return says ? shows(text, shown, most) : shown == "STOP";
 }
 
 } // namespace

@@ -6,11 +6,13 @@
 #include "backends/fanuc/TargetVerify.h"
 #include "backends/fanuc/TargetVerifyPrograms.h"
 #include "frontend/gibbs/Ast.h"
+#include "ir/CycleNames.h"
 #include "ir/Fold.h"
 #include "ir/Positions.h"
 #include "ir/ShareVariables.h"
 #include "ir/Walk.h"
 #include "stdlib/SearchTravel.h"
+#include "support/NearestName.h"
 #include "support/messages/Commands.h"
 #include "support/messages/Cycle.h"
 #include "support/messages/Fanuc.h"
@@ -105,6 +107,17 @@ public:
     return true;
   }
 
+  void finish() override {
+    if (context_.inputs == nullptr || !context_.inputs->oneOfSeveral || session_.diagnostics().hasErrors())
+      return;
+    for (const auto& [name, number] : options_.results)
+      if (!takenResults_.contains(name)) {
+        const std::string near = nearestName(name, takenResults_);
+        session_.diagnostics().report<diag::CycleResultUnknown>(
+            {}, name, "any of the inputs", near.empty() ? "" : "; did you mean `" + near + "`?");
+      }
+  }
+
   void program(const std::string& path) override { programs_.convert(path, context_.result); }
 
 private:
@@ -119,7 +132,18 @@ private:
 
   // A program hands nothing back but what --result names.
   KeptResults leaveResults(ir::Cycle& cycle, const stdlib::MacroSet& macros) {
-    KeptResults out = keepResults(cycle, options_.results, session_.diagnostics());
+    NamedTexts wanted = options_.results;
+    if (context_.inputs->oneOfSeveral) { // each takes those that it has
+      std::set<std::string> own;
+      for (const ir::CycleStatement& statement : cycle.body)
+        if (const auto* call = std::get_if<ir::CallCycle>(&statement.node);
+            call != nullptr && (call->cycle == ir::kResults || call->cycle == ir::kKeep))
+          for (const ir::CycleArgument& one : call->arguments)
+            own.insert(one.parameter);
+      std::erase_if(wanted, [&](const auto& one) { return !own.contains(one.first); });
+      takenResults_.merge(own);
+    }
+    KeptResults out = keepResults(cycle, wanted, session_.diagnostics());
     const auto keeps = [&](std::uint32_t number) {
       const auto& common = context_.inputs->control->common;
       return std::any_of(common.begin(), common.end(), [&](const stdlib::VariableRange& range) {
@@ -229,6 +253,7 @@ private:
   }
 
   ProgramConversion programs_;
+  std::set<std::string> takenResults_; // of several inputs: that one of them has
   const stdlib::MacroSet none_ = [] {
     stdlib::MacroSet set;
     set.title = "no set";

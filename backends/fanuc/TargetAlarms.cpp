@@ -50,8 +50,11 @@ bool hasAlarm(std::string_view program, const std::string& message) {
 } // namespace
 
 std::string_view listedDefault(std::string_view program, char letter) {
-  const std::size_t heading = program.find("(      NAME ");
-  if (heading == std::string_view::npos) return "";
+  // As wide as the numbers of its locals: `(     NAME ` or `(      NAME `.
+  std::size_t heading = program.find("   NAME ");
+  while (heading != std::string_view::npos && heading > 0 && program[heading] == ' ')
+    --heading;
+  if (heading == std::string_view::npos || program[heading] != '(') return "";
   const std::size_t column = program.substr(heading).find(" DEFAULT ");
   for (std::size_t at = heading; (at = program.find('\n', at)) != std::string_view::npos;) {
     const std::size_t begin = ++at;

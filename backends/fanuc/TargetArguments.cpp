@@ -54,8 +54,15 @@ void FanucVerification::callWithout(const OutputArgument& argument, const Target
   }
   const std::string wanted = fmt::format("`{}` has to stop it before anything moves", alarm);
   const verify::DrawField* const field = fieldOf(argument.name);
-  const std::optional<double> value = field == nullptr ? std::nullopt : defaultOf(*field);
-  if (field != nullptr && !from_.options.useDefaults && now.questions->moves(field->name)) {
+  // `--default` of a cycle of the language is its default, a literal as well; the header has the number.
+  const auto& flags = from_.options.defaults;
+  const bool byFlag = from_.plan.cycleFile && field != nullptr &&
+                      std::any_of(flags.begin(), flags.end(), [&](const auto& one) {
+                        return gibbs::foldCase(one.first) == gibbs::foldCase(field->name);
+                      });
+  std::optional<double> value = field == nullptr ? std::nullopt : defaultOf(*field);
+  if (byFlag && !value) value = parseNumber(std::string(listedDefault(translation_.text, argument.letter)));
+  if (field != nullptr && !byFlag && !from_.options.useDefaults && now.questions->moves(field->name)) {
     differs(who, wanted, record, out);
     return;
   }
