@@ -55,9 +55,23 @@ bool readsResult(const Expression& node) {
   return std::holds_alternative<MeasuredResult>(node.node);
 }
 
+// One is the other with its sign turned.
+bool cancels(const ExpressionPtr& a, const ExpressionPtr& b) {
+  const auto isMinus = [](const ExpressionPtr& one, const ExpressionPtr& other) {
+    const auto* unary = std::get_if<Unary>(&one->node);
+    return unary != nullptr && unary->op == UnaryOp::Negate && equal(unary->operand, other);
+  };
+  return isMinus(a, b) || isMinus(b, a);
+}
+
 ExpressionPtr sum(const ExpressionPtr& value, const ExpressionPtr& travel) {
   const double* a = constantValue(value);
   const double* b = constantValue(travel);
+  // There and back again.
+  if (cancels(value, travel)) return constant(0, travel->range);
+  if (const auto* before = std::get_if<Binary>(&value->node);
+      before != nullptr && before->op == BinaryOp::Add && cancels(before->right, travel))
+    return before->left;
   if (a && *a == 0) return travel;
   if (b && *b == 0) return value;
   if (a && b)

@@ -1,5 +1,6 @@
 // Lines to blocks: comments, blank lines, `end`.
 #include "frontend/cycle/BuildAst.h"
+#include "frontend/cycle/Words.h"
 
 #include "frontend/cycle/Parse.h"
 #include "frontend/cycle/Tokens.h"
@@ -147,7 +148,30 @@ void Builder::lost(SourceRange range) {
     loop.first = missing();
     loop.last = missing();
     out.node = std::move(loop);
+  } else if (first == "touch") {
+    // What it was to find and its `else` are known.
+    Touch touch;
+    touch.value = missing();
+    if (text.find(" along ") != std::string_view::npos) {
+      Coordinate& part = touch.along.emplace_back();
+      part.range = range;
+      part.value = missing();
+    }
+    const std::size_t arrow = text.rfind("->");
+    text.remove_prefix(arrow == std::string_view::npos ? text.size() : arrow + 2);
+    if (std::string name = word(); isName(name)) touch.name = Name{range, std::move(name)};
+    const bool goesOn = word() == "else";
+    if (goesOn) touch.otherwise = std::make_unique<Block>();
+    out.node = std::move(touch);
+    if (!goesOn) {
+      add(std::move(out));
+      return;
+    }
   } else {
+    text.remove_prefix(std::min(text.find_first_not_of(" \t"), text.size()));
+    // A value that it was to give: what reads it is no further mistake.
+    if (isName(first) && text.starts_with('=') && !text.starts_with("=="))
+      out.node = Assign{{range, first}, missing()};
     add(std::move(out));
     return;
   }

@@ -175,6 +175,7 @@ void Checker::collect(const Block& block) {
     if (std::holds_alternative<ErrorStatement>(statement.node)) wordsOf(sources_.text(statement.range));
     if (const auto* touch = std::get_if<Touch>(&statement.node)) {
       if (touch->name) later_.emplace(touch->name->text, Symbol::Role::Touch);
+      if (touch->name && touch->otherwise != nullptr) mayMiss_.insert(touch->name->text);
       if (touch->otherwise != nullptr) collect(*touch->otherwise);
     }
     if (const auto* call = std::get_if<Call>(&statement.node); call != nullptr && call->result)
@@ -226,6 +227,7 @@ void Checker::run() {
     running = running || !declares;
     if (declares && !own) declare(statement);
   }
+  if (!file_.hasErrorNodes) defaults();
   if (options_) return; // whoever uses them reads the parameters and gives the results their values
   Known known;
   known.probe = needsProbe_ ? ProbeState::On : ProbeState::Off;

@@ -225,9 +225,13 @@ Quantity Checker::member(const Expression& expression, const Member& member, con
       diagnostics_.report<diag::NoMembers>(expression.range, object);
     return {};
   }
-  if (!known.set.contains(object) && !known.ended)
-    diagnostics_.report<diag::ReadBeforeTouch>(expression.range, text(expression.range), object,
-                                               symbol.role == Symbol::Role::Touch ? "touch" : "call");
+  if (!known.has(object) && !known.ended) {
+    if (mayMiss_.contains(object))
+      diagnostics_.report<diag::ReadOfMissed>(expression.range, text(expression.range), object);
+    else
+      diagnostics_.report<diag::ReadBeforeTouch>(expression.range, text(expression.range), object,
+                                                 symbol.role == Symbol::Role::Touch ? "touch" : "call");
+  }
   if (symbol.role == Symbol::Role::Touch) {
     const std::vector<std::string> members = symbol.direction
                                                  ? std::vector<std::string>{"at_x", "at_y", "at_z", "error"}
@@ -393,7 +397,15 @@ Quantity Checker::quantity(const Expression& expression, const Known& known) {
           [&](const Given& given) {
             const auto found = symbols_.find(given.name.text);
             const Parameter* parameter = found == symbols_.end() ? nullptr : found->second.parameter;
-            if (found == symbols_.end())
+            const auto later = later_.find(given.name.text);
+            const bool isTouch = found != symbols_.end()
+                                     ? found->second.role == Symbol::Role::Touch
+                                     : later != later_.end() && later->second == Symbol::Role::Touch;
+            if (isTouch) {
+              // Whether it found anything; no where it has not been made.
+              if (known.set.contains(given.name.text) && !mayMiss_.contains(given.name.text))
+                diagnostics_.report<diag::GivenAlways>(given.name.range, given.name.text);
+            } else if (found == symbols_.end())
               unknownName(given.name.range, given.name.text);
             else if (parameter == nullptr || !parameter->optional)
               diagnostics_.report<diag::GivenAlways>(given.name.range, given.name.text);

@@ -1,4 +1,5 @@
 #include "frontend/cycle/Checker.h"
+#include "frontend/cycle/Walk.h"
 #include "frontend/cycle/Words.h"
 #include "ir/Match.h"
 #include "support/messages/Cycle.h"
@@ -185,7 +186,8 @@ void Checker::assign(const Assign& assign, Known& known) {
 }
 
 void Checker::touch(const Touch& touch, const Statement& statement, Known& known) {
-  if (known.probe != ProbeState::On && !known.ended)
+  const bool wasRead = !std::holds_alternative<Missing>(touch.value->node);
+  if (wasRead && known.probe != ProbeState::On && !known.ended)
     diagnostics_.report<diag::TouchWithProbeOff>(statement.range, "touches",
                                                  known.probe == ProbeState::Off ? "" : " on some paths");
   if (touch.along.empty() && touch.axis > Axis::Z)
@@ -212,6 +214,7 @@ void Checker::touch(const Touch& touch, const Statement& statement, Known& known
   if (touch.otherwise != nullptr) {
     Known missed = known;
     Known found = known;
+    if (touch.name) missed.given.erase(touch.name->text);
     block(*touch.otherwise, missed);
     if (touch.name) {
       Symbol symbol;
@@ -244,6 +247,13 @@ void Checker::move(const Move& move, const Statement& statement, Known& known) {
   if (move.feed == nullptr) return;
   want(*move.feed, plain(Base::Feed), "`feed`", known);
   if (move.kind == Move::Kind::Rapid) diagnostics_.report<diag::RapidWithFeed>(move.feed->range);
+}
+
+void Checker::forgetTouches(const Block& body, Known& known) const {
+  eachStatement(body, [&](const Statement& one) {
+    const auto* touch = std::get_if<Touch>(&one.node);
+    if (touch != nullptr && touch->name && touch->otherwise != nullptr) known.given.erase(touch->name->text);
+  });
 }
 
 void Checker::loopBody(const Block& body, Known& known, bool runsOnce) {
@@ -340,6 +350,7 @@ void Checker::statement(const Statement& s, Known& known) {
           [&](const Repeat& repeat) {
             want(*repeat.count, plain(Base::Number), "`repeat`", known);
             wantCount(repeat.count, "`repeat`");
+            forgetTouches(repeat.body, known);
             loopBody(repeat.body, known, constant(repeat.count) >= 1.0);
           },
           [&](const For& loop) {
@@ -354,10 +365,12 @@ void Checker::statement(const Statement& s, Known& known) {
             counter.read = true;
             gives(loop.name, counter, known);
             const std::optional<double> from = constant(loop.first), to = constant(loop.last);
+            forgetTouches(loop.body, known);
             loopBody(loop.body, known, from && to && *from <= *to && loop.step == nullptr);
             known.set.erase(loop.name.text);
           },
           [&](const While& loop) {
+            forgetTouches(loop.body, known);
             wantFlag(*loop.condition, "`while`", known);
             want(*loop.most, plain(Base::Number), "`at most`", known);
             wantCount(loop.most, "`at most`");

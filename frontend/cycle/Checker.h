@@ -14,10 +14,13 @@ enum class ProbeState : std::uint8_t { Off, On, Either };
 
 // What holds on every path to a place.
 struct Known {
-  std::set<std::string, std::less<>> set;   // results, variables, touches and calls that have their values
-  std::set<std::string, std::less<>> given; // optional parameters that the caller has given
+  std::set<std::string, std::less<>> set; // results, variables, touches and calls that have their values
+  // Optional parameters that the caller has given, and touches that have found something.
+  std::set<std::string, std::less<>> given;
   ProbeState probe = ProbeState::Off;
   bool ended = false; // no path gets here
+
+  bool has(const std::string& touch) const { return set.contains(touch) || given.contains(touch); }
 };
 Known joined(const Known& a, const Known& b);
 
@@ -37,6 +40,9 @@ private:
   void declareNames(const Parameter& parameter);
   void clauses(const Parameter& parameter);
   void unread();
+
+  // ---- CheckDefaults.cpp
+  void defaults();
   // Names of touches, called cycles and values, wherever they get their values.
   void collect(const Block& block);
   void wordsOf(std::string_view line); // that could not be read
@@ -51,6 +57,8 @@ private:
   void wantCount(const ExpressionPtr& expression, std::string_view what);
   void constants(const Parameter& parameter);
   void loopBody(const Block& body, Known& known, bool runsOnce);
+  // A touch of an earlier run of the loop may have found something that one of a later run does not.
+  void forgetTouches(const Block& body, Known& known) const;
   void touch(const Touch& touch, const Statement& statement, Known& known);
   void move(const Move& move, const Statement& statement, Known& known);
   void assign(const Assign& assign, Known& known);
@@ -89,6 +97,7 @@ private:
   Symbols symbols_;
   int nameHints_ = 0; // names looked up for "did you mean"
   std::map<std::string, Symbol::Role, std::less<>> later_;
+  std::set<std::string, std::less<>> mayMiss_; // touches whose `else` may go on
   // Parameters and results, wherever they are declared.
   std::map<std::string, SourceRange, std::less<>> below_;
   bool inClause_ = false; // of a parameter

@@ -81,11 +81,16 @@ std::optional<Lowered> Lowering::run() {
   out_ = &cycle_.checks;
   declarations(file_);
   out_ = &cycle_.body;
+  declareTouches(file_.body);
   block(file_.body);
   leaveResults(results_, cycle_.range);
   if (failed_) return std::nullopt;
+  warnMixed();
   resolvePlaces();
   if (failed_) return std::nullopt;
+  for (auto* list : {&cycle_.checks, &cycle_.body})
+    for (ir::CycleStatement& statement : *list)
+      statement.origin.place = 0;
   dropUnread();
   ir::fold(cycle_, {});
   const std::map<ir::VariableId, ir::VariableId> names = compact(cycle_);

@@ -72,7 +72,10 @@ void Lowering::call(const Call& call, SourceRange range) {
   inner.begin = out_->size();
   Scope outer = std::move(scope_);
   scope_ = std::move(inner);
-  ++depth_;
+  if (depth_++ == 0) {
+    sites_.push_back({range, call.cycle.text});
+    site_ = static_cast<std::uint32_t>(sites_.size());
+  }
   for (const Statement* const statement : declared) {
     const Statement& one = *statement;
     if (const auto* parameter = std::get_if<Parameter>(&one.node)) {
@@ -100,8 +103,9 @@ void Lowering::call(const Call& call, SourceRange range) {
     if (const auto* require = std::get_if<Require>(&one.node))
       demand(*require->condition, require->message ? require->message->text : "require not met", one.range);
   }
+  declareTouches(called->body);
   block(called->body);
-  --depth_;
+  if (--depth_ == 0) site_ = 0;
   inner = std::move(scope_);
   scope_ = std::move(outer);
   for (std::size_t i = 0; i < 3; ++i)

@@ -128,12 +128,9 @@ bool Lowering::leadsDownward(const Touch& touch, SourceRange range) {
 // The check before a touch to a coordinate, when the place is known from which it leads: four statements
 // from `at`.
 void Lowering::resolveGuard(std::vector<ir::CycleStatement>& list, std::size_t at,
-                            const ir::ExpressionPtr& here) {
+                            const ir::ExpressionPtr& here, const std::function<void()>& unknown) {
   const SourceRange range = list[at].origin.range();
-  if (here == nullptr) {
-    refuse<diag::PlaceUnknown>(range, "z");
-    return;
-  }
+  if (here == nullptr) return unknown();
   auto& branch = std::get<ir::Branch>(list[at + 1].node);
   const ir::ExpressionPtr to = std::get<ir::Comparison>(branch.condition->node).left;
   const Sign sign = signOfDifference(to, here);

@@ -333,6 +333,8 @@ ir::ConditionPtr Lowering::condition(const Expression& expression) {
   const Expression& whole = within(expression);
   const SourceRange range = whole.range;
   if (const auto* given = std::get_if<Given>(&whole.node)) {
+    if (const auto touch = scope_.names.find(foundName(given->name.text)); touch != scope_.names.end())
+      return ir::compare(ir::Relation::NotEqual, touch->second.value, ir::constant(0), range);
     const auto found = scope_.names.find(given->name.text);
     if (found == scope_.names.end() || found->second.given) {
       const bool is = found != scope_.names.end() && *found->second.given;

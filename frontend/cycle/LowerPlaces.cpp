@@ -83,11 +83,13 @@ ir::ExpressionPtr Lowering::start(ir::Axis axis, SourceRange range) {
   if (!scope_.start[i]) {
     const ir::VariableId id = local(startName(axis), ir::Kind::Length, range);
     places_.emplace(id, axis);
+    starts_.insert(id);
     scope_.start[i] = id;
     ir::CycleStatement read;
     read.node = ir::Assign{id, ir::constant(0, range)};
     read.origin.ranges = {range};
     read.origin.reason = "where the called cycle begins";
+    read.origin.place = site_;
     out_->insert(out_->begin() + static_cast<std::ptrdiff_t>(scope_.begin), std::move(read));
   }
   return ir::variable(*scope_.start[i], range);
@@ -184,9 +186,12 @@ void Lowering::resolvePlaces() {
         (startMoves_ != 0 && axis == ir::Axis::Z))
       host(startName(axis), ir::Kind::Length);
   const std::vector<ir::Position> known = ir::positions(cycle_);
-  const auto work = [&](const ir::AxisPosition& at, ir::Axis axis) -> ir::ExpressionPtr {
+  const std::vector<std::array<bool, 3>> shifted = shiftedBefore(cycle_.body);
+  const auto work = [&](std::size_t before, ir::Axis axis) -> ir::ExpressionPtr {
+    const ir::AxisPosition& at = known[before][ir::indexOf(axis)];
     if (at.state == State::Unknown) return nullptr;
     if (at.state == State::Work) return at.value;
+    if (shifted[before][ir::indexOf(axis)]) return nullptr; // the start has other coordinates now
     const ir::ExpressionPtr from = host(startName(axis), ir::Kind::Length);
     return isZero(at.value) ? from : ir::binary(ir::BinaryOp::Add, from, at.value);
   };
@@ -200,18 +205,30 @@ void Lowering::resolvePlaces() {
   for (std::size_t i = 0; i < list.size(); ++i) {
     ir::CycleStatement& statement = list[i];
     const SourceRange range = statement.origin.range();
+    site_ = statement.origin.place;
+    const auto unknown = [&](ir::Axis axis) {
+      const std::string letter(1, "xyz"[ir::indexOf(axis)]);
+      const bool zKnown = known[i][ir::indexOf(ir::Axis::Z)].state != State::Unknown;
+      const std::string to = fmt::format("`move to {} ..`", letter);
+      refuse<diag::PlaceUnknown>(
+          range, letter, site_ == 0 ? "here" : "where `" + sites_[site_ - 1].called + "` is called",
+          axis == ir::Axis::Z || !zKnown ? to : "`move to start`, a place that no `set` moves, or " + to);
+    };
     if (auto* assign = std::get_if<ir::Assign>(&statement.node)) {
       if (guards_.contains(assign->variable)) {
-        resolveGuard(list, i, work(known[i][ir::indexOf(ir::Axis::Z)], ir::Axis::Z));
+        resolveGuard(list, i, work(i, ir::Axis::Z), [&] { unknown(ir::Axis::Z); });
         i += 3;
         continue;
       }
       const auto asked = places_.find(assign->variable);
       if (asked != places_.end()) {
         const ir::AxisPosition& at = known[i][ir::indexOf(asked->second)];
-        assign->value = work(at, asked->second);
+        assign->value = work(i, asked->second);
         if (assign->value == nullptr) {
-          refuse<diag::PlaceUnknown>(range, std::string(1, "xyz"[ir::indexOf(asked->second)]));
+          if (at.state == State::Start && starts_.contains(assign->variable))
+            placesOnly_.insert(assign->variable);
+          else
+            unknown(asked->second);
           assign->value = ir::constant(0);
         }
         began_[assign->variable] = at;
@@ -226,22 +243,29 @@ void Lowering::resolvePlaces() {
       cycle_.body.push_back(std::move(statement));
       continue;
     }
-    const auto& move = std::get<ir::Move>(statement.node);
+    auto& move = std::get<ir::Move>(statement.node);
     std::array<bool, 3> same{};
     ir::ExpressionPtr height;
     for (const ir::Axis axis : ir::kAxes) {
       const std::size_t a = ir::indexOf(axis);
       const ir::AxisPosition& at = known[i][a];
-      const ir::Coordinate& to = *move.axes[a];
+      ir::Coordinate& to = *move.axes[a];
       ir::ExpressionPtr away; // here less start; nullptr: not known
       if (to.frame == ir::Frame::Start) {
         if (at.state == State::Start) away = at.value;
         if (at.state == State::Work && axis == ir::Axis::Z)
           away = ir::binary(ir::BinaryOp::Subtract, at.value, host(startName(axis), ir::Kind::Length));
       } else {
-        away = awayFrom(at, std::get<ir::VariableUse>(to.value->node).variable);
-        if (const ir::ExpressionPtr here = work(at, axis); away == nullptr && here != nullptr)
+        const ir::VariableId start = std::get<ir::VariableUse>(to.value->node).variable;
+        away = awayFrom(at, start);
+        if (placesOnly_.contains(start)) {
+          if (lasts(began_.at(start).value))
+            to = {began_.at(start).value, ir::Frame::Start, nullptr};
+          else
+            unknown(axis);
+        } else if (const ir::ExpressionPtr here = work(i, axis); away == nullptr && here != nullptr) {
           away = ir::binary(ir::BinaryOp::Subtract, here, to.value);
+        }
       }
       same[a] = away != nullptr && isZero(away);
       if (axis != ir::Axis::Z) continue;
@@ -252,11 +276,37 @@ void Lowering::resolvePlaces() {
       same[a] = same[a] || (sign.above && sign.below);
     }
     if (height == nullptr && !(same[0] && same[1])) {
-      refuse<diag::PlaceUnknown>(range, "z");
+      unknown(ir::Axis::Z);
       continue;
     }
     toStart(statement, height, same);
   }
+  refuseShiftedStarts();
+  site_ = 0;
+}
+
+// `start` as a value in a called cycle, after a `set` of its caller.
+void Lowering::refuseShiftedStarts() {
+  if (placesOnly_.empty()) return;
+  for (const ir::CycleStatement& statement : cycle_.body)
+    ir::eachNode(statement, [&](const ir::Expression& node) {
+      const auto* use = std::get_if<ir::VariableUse>(&node.node);
+      if (use == nullptr || !placesOnly_.contains(use->variable)) return;
+      site_ = statement.origin.place;
+      refuse<diag::StartShifted>(statement.origin.range(),
+                                 std::string(1, "xyz"[ir::indexOf(places_.at(use->variable))]));
+    });
+}
+
+// It means what it meant where it was taken.
+bool Lowering::lasts(const ir::ExpressionPtr& value) const {
+  bool out = true;
+  ir::eachNode(value, [&](const ir::Expression& node) {
+    const auto* use = std::get_if<ir::VariableUse>(&node.node);
+    out = out && !std::holds_alternative<ir::MeasuredResult>(node.node) &&
+          (use == nullptr || cycle_.variable(use->variable).role != ir::Role::Local);
+  });
+  return out;
 }
 
 // How far the probe has come from where a called cycle began, where the travels say it alone; else nullptr.
@@ -264,13 +314,7 @@ ir::ExpressionPtr Lowering::awayFrom(const ir::AxisPosition& at, ir::VariableId 
   const auto found = began_.find(start);
   if (found == began_.end() || at.state == State::Unknown || found->second.state != at.state) return nullptr;
   const ir::ExpressionPtr& from = found->second.value;
-  bool lasts = true; // it means what it meant there
-  ir::eachNode(from, [&](const ir::Expression& node) {
-    const auto* use = std::get_if<ir::VariableUse>(&node.node);
-    lasts = lasts && !std::holds_alternative<ir::MeasuredResult>(node.node) &&
-            (use == nullptr || cycle_.variable(use->variable).role != ir::Role::Local);
-  });
-  if (!lasts) return nullptr;
+  if (!lasts(from)) return nullptr;
   if (isZero(from) && at.state == State::Start) return at.value;
   ir::ExpressionPtr rest = at.value, out = ir::constant(0);
   while (!ir::equal(rest, from)) {

@@ -5,6 +5,7 @@
 #include "support/messages/Cycle.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 namespace dotek::frontend::cycle {
@@ -13,6 +14,10 @@ namespace {
 constexpr ir::ResultName kPositions[] = {ir::ResultName::PositionX, ir::ResultName::PositionY,
                                          ir::ResultName::PositionZ};
 constexpr ir::ResultName kErrors[] = {ir::ResultName::ErrorX, ir::ResultName::ErrorY, ir::ResultName::ErrorZ};
+
+// Of a step between the last value and one that counts as it: steps such as 0.1 are no sums of halves, so
+// what they add up to is off by the last digits of the control.
+constexpr double kReached = 0.001;
 
 std::string trimmed(const std::string& text) {
   const std::size_t first = text.find_first_not_of(' ');
@@ -236,6 +241,7 @@ void Lowering::touch(const Touch& touch, SourceRange range) {
   readTouch(touch, range);
   jump(end, range);
   place(missed, range);
+  noteFound(touch, false, range);
   block(*touch.otherwise);
   place(end, range);
 }
@@ -289,12 +295,34 @@ void Lowering::readTouch(const Touch& touch, SourceRange range) {
     const std::size_t i = ir::indexOf(*linear(touch.axis));
     read("at", kPositions[i]);
     read("error", kErrors[i]);
-    return;
+  } else {
+    read("at_x", ir::ResultName::PositionX);
+    read("at_y", ir::ResultName::PositionY);
+    read("at_z", ir::ResultName::PositionZ);
+    read("error", ir::ResultName::Main);
   }
-  read("at_x", ir::ResultName::PositionX);
-  read("at_y", ir::ResultName::PositionY);
-  read("at_z", ir::ResultName::PositionZ);
-  read("error", ir::ResultName::Main);
+  noteFound(touch, true, range);
+}
+
+void Lowering::declareTouches(const Block& block) {
+  eachStatement(block, [&](const Statement& one) {
+    const auto* touch = std::get_if<Touch>(&one.node);
+    if (touch == nullptr || !touch->name) return;
+    const auto [at, isNew] = scope_.names.try_emplace(foundName(touch->name->text));
+    if (!isNew) return;
+    Meaning& found = at->second;
+    found.kind = ir::Kind::Flag;
+    found.variable = local(touch->name->text + "_found", found.kind, touch->name->range);
+    found.value = ir::variable(*found.variable, touch->name->range);
+    touched_.insert(*found.variable);
+    noteFound(*touch, false, touch->name->range);
+  });
+}
+
+void Lowering::noteFound(const Touch& touch, bool found, SourceRange range) {
+  if (!touch.name) return;
+  const auto at = scope_.names.find(foundName(touch.name->text));
+  if (at != scope_.names.end()) emit(ir::Assign{*at->second.variable, ir::constant(found ? 1 : 0)}, range);
 }
 
 void Lowering::setOffset(const SetOffset& set, SourceRange range) {
@@ -376,12 +404,37 @@ void Lowering::repeat(const Repeat& repeat, SourceRange range) {
   place(end, range);
 }
 
+// Whole numbers add up exactly on every control.
+bool Lowering::isWhole(const Expression& expression) const {
+  if (const auto* number = std::get_if<Number>(&expression.node))
+    return number->unit != Unit::Inch && number->value == std::floor(number->value);
+  if (const auto* one = std::get_if<Unary>(&expression.node)) return isWhole(*one->operand);
+  if (const auto* one = std::get_if<Bracketed>(&expression.node)) return isWhole(*one->inner);
+  if (const auto* both = std::get_if<Binary>(&expression.node))
+    return both->op != BinaryOp::Divide && isWhole(*both->left) && isWhole(*both->right);
+  if (const auto* called = std::get_if<Function>(&expression.node))
+    return called->name.text == "round" || called->name.text == "down" || called->name.text == "up";
+  const Meaning* const meaning = meaningOf(expression);
+  return meaning != nullptr && meaning->kind == ir::Kind::Count;
+}
+
 void Lowering::count(const For& loop, SourceRange range) {
   const ir::Kind kind = kindOf(*loop.first);
+  const bool exact =
+      isWhole(*loop.first) && isWhole(*loop.last) && (loop.step == nullptr || isWhole(*loop.step));
   const ir::ExpressionPtr first = value(*loop.first);
-  const ir::ExpressionPtr last = kept(value(*loop.last), "last", kind, range);
+  ir::ExpressionPtr bound = value(*loop.last);
   const ir::ExpressionPtr step =
       loop.step == nullptr ? ir::constant(1) : kept(value(*loop.step), "step", kind, range);
+  if (!exact) {
+    const double *to = ir::constantValue(bound), *by = ir::constantValue(step);
+    const ir::ExpressionPtr more =
+        by != nullptr ? ir::constant(*by * kReached)
+                      : ir::binary(ir::BinaryOp::Multiply, step, ir::constant(kReached), range);
+    bound = to != nullptr && by != nullptr ? ir::constant(*to + *by * kReached)
+                                           : ir::binary(ir::BinaryOp::Add, bound, more, range);
+  }
+  const ir::ExpressionPtr last = kept(bound, "last", kind, range);
   const auto named = scope_.names.find(loop.name.text);
   const ir::VariableId id = named != scope_.names.end() && named->second.variable
                                 ? *named->second.variable

@@ -7,6 +7,7 @@
 #include "ir/Positions.h"
 
 #include <array>
+#include <functional>
 #include <map>
 #include <set>
 #include <string>
@@ -40,6 +41,11 @@ struct Scope {
 };
 
 ir::ToolPart partOf(ToolPart part);
+// Among the names of a scope: whether the touch found anything. No name of a cycle holds a blank.
+inline std::string foundName(const std::string& touch) {
+  return "given " + touch;
+}
+
 std::optional<ir::Axis> linear(Axis axis); // nothing: a rotary axis
 
 class Lowering {
@@ -52,13 +58,22 @@ private:
 
   template <class Id, class... Args> void refuse(SourceRange range, const Args&... args) {
     failed_ = true;
-    diagnostics_.report<Id>(range, args...);
+    report(makeDiagnostic<Id>(range, args...));
+  }
+  // Of a called cycle at the call, which is what the author can change.
+  void report(Diagnostic diagnostic) {
+    if (site_ != 0) {
+      diagnostic.note(diagnostic.range, "the line of the called cycle");
+      diagnostic.range = sites_[site_ - 1].range;
+    }
+    diagnostics_.add(std::move(diagnostic));
   }
   template <class Node> ir::CycleStatement& emit(Node node, SourceRange range, std::string reason = "") {
     ir::CycleStatement& added = out_->emplace_back();
     added.node = std::move(node);
     added.origin.ranges = {range};
     added.origin.reason = std::move(reason);
+    added.origin.place = site_; // until it is done
     return added;
   }
   void place(ir::LabelId label, SourceRange range) { emit(ir::Label{label}, range); }
@@ -117,6 +132,9 @@ private:
   void touch(const Touch& touch, SourceRange range);
   void touchCall(const Touch& touch, SourceRange range);
   void readTouch(const Touch& touch, SourceRange range);
+  // `given NAME` of a touch: no until one of that name has found something.
+  void declareTouches(const Block& block);
+  void noteFound(const Touch& touch, bool found, SourceRange range);
   // A cycle by its name that moves nothing.
   ir::CallCycle quiet(std::string_view name) const;
   void setOffset(const SetOffset& set, SourceRange range);
@@ -128,6 +146,7 @@ private:
   void choose(const If& choice, SourceRange range);
   void repeat(const Repeat& repeat, SourceRange range);
   void count(const For& loop, SourceRange range);
+  bool isWhole(const Expression& expression) const;
   void loop(const While& loop, SourceRange range);
   void loopBody(const Block& body);
   // Axes whose coordinates a `set` of the block, or of what it calls, may move. `absent`: optional parameters
@@ -150,6 +169,8 @@ private:
   void toStart(const ir::CycleStatement& marked, const ir::ExpressionPtr& height,
                const std::array<bool, 3>& same);
   ir::ExpressionPtr awayFrom(const ir::AxisPosition& at, ir::VariableId start) const;
+  bool lasts(const ir::ExpressionPtr& value) const;
+  void refuseShiftedStarts();
   struct Sign {
     bool above = false, below = false; // certainly 0 or more, 0 or less
   };
@@ -161,7 +182,14 @@ private:
   bool leadsDownward(const Touch& touch, SourceRange range);
   bool isOfCaller(const ir::ExpressionPtr& expression) const;
   Sign signOfDifference(const ir::ExpressionPtr& a, const ir::ExpressionPtr& b) const;
-  void resolveGuard(std::vector<ir::CycleStatement>& list, std::size_t at, const ir::ExpressionPtr& here);
+  void resolveGuard(std::vector<ir::CycleStatement>& list, std::size_t at, const ir::ExpressionPtr& here,
+                    const std::function<void()>& unknown);
+
+  // ---- LowerCoordinates.cpp
+  // Axes whose coordinates a `set` on some path to the statement may have moved.
+  std::vector<std::array<bool, 3>> shiftedBefore(const std::vector<ir::CycleStatement>& list) const;
+  // Warns where a coordinate from before a `set` meets one from after it.
+  void warnMixed();
 
   const File& file_;
   const SourceMap& sources_;
@@ -178,6 +206,8 @@ private:
   std::map<ir::VariableId, Sign> signs_;      // of parameters, by their checks
   std::map<std::string, ir::VariableId, std::less<>> hosts_;
   std::map<ir::VariableId, ir::AxisPosition> began_; // where the called cycles began
+  std::set<ir::VariableId> starts_;                  // of places_: where a called cycle began
+  std::set<ir::VariableId> placesOnly_; // of starts_: a place on the machine, whose coordinates are not known
   std::map<ir::VariableId, char> letters_;
   Results results_;
   Results known_;                   // those that have a value on each path to the statement
@@ -185,6 +215,12 @@ private:
   std::map<ir::VariableId, ir::ExpressionPtr>
       lasting_; // locals that are assigned once, of what the caller gives
   std::uint32_t startMoves_ = 0;
+  struct Site { // a call in the file itself
+    SourceRange range;
+    std::string called;
+  };
+  std::vector<Site> sites_;
+  std::uint32_t site_ = 0; // the call that the statement is from, from 1; 0: it is the file's own
   std::size_t nested_ = 0; // branches and loops around the statement
   std::size_t depth_ = 0;  // of calls
   static constexpr std::size_t kMostStatements = 20000, kMostCalls = 50;

@@ -168,8 +168,94 @@ size_t firstOfLine(const antlr4::Token& token, const antlr4::Parser& parser) {
   return first;
 }
 
+// Signs that look like what is meant, as mails, manuals and word processors write them.
+struct ForeignSign {
+  std::string_view text; // UTF-8
+  std::string_view name; // with its number
+  std::string_view write;
+};
+constexpr ForeignSign kForeignSigns[] = {
+    {"\xC2\xA0", "a no-break space (U+00A0)", "write a blank"},
+    {"\xE2\x80\xAF", "a narrow no-break space (U+202F)", "write a blank"},
+    {"\xE2\x80\x87", "a figure space (U+2007)", "write a blank"},
+    {"\xE2\x80\x89", "a thin space (U+2009)", "write a blank"},
+    {"\xE3\x80\x80", "a wide space (U+3000)", "write a blank"},
+    {"\xE2\x80\x8B", "a space without width (U+200B), which nobody sees", "take it out"},
+    {"\xEF\xBB\xBF", "a byte order mark (U+FEFF), which nobody sees", "take it out"},
+    {"\xE2\x88\x92", "a minus sign (U+2212)", "write `-`"},
+    {"\xE2\x80\x90", "a hyphen (U+2010)", "write `-`"},
+    {"\xE2\x80\x91", "a no-break hyphen (U+2011)", "write `-`"},
+    {"\xE2\x80\x93", "a dash (U+2013)", "write `-`"},
+    {"\xE2\x80\x94", "a dash (U+2014)", "write `-`"},
+    {"\xC2\xAD", "a soft hyphen (U+00AD)", "write `-`, or take it out"},
+    {"\xE2\x86\x92", "an arrow (U+2192)", "write `->`"},
+    {"\xE2\x87\x92", "an arrow (U+21D2)", "write `->`"},
+    {"\xEF\x83\xA0", "an arrow (U+F0E0)", "write `->`"},
+    {"\xE2\x89\xA4", "the sign (U+2264) for less or equal", "write `<=`"},
+    {"\xE2\x89\xA5", "the sign (U+2265) for greater or equal", "write `>=`"},
+    {"\xE2\x89\xA0", "the sign (U+2260) for not equal", "write `is not`"},
+    {"\xC2\xB0", "a degree sign (U+00B0)", "write ` deg`"},
+    {"\xC2\xBA", "a raised o (U+00BA)", "write ` deg`"},
+    {"\xC3\x97", "a multiplication sign (U+00D7)", "write `*`"},
+    {"\xC2\xB7", "a middle dot (U+00B7)", "write `*`"},
+    {"\xE2\x8B\x85", "a middle dot (U+22C5)", "write `*`"},
+    {"\xC3\xB7", "a division sign (U+00F7)", "write `/`"},
+    {"\xE2\x88\x95", "a division slash (U+2215)", "write `/`"},
+    {"\xE2\x88\x9A", "a root sign (U+221A)", "write `sqrt(..)`"},
+    {"\xC2\xB2", "a raised 2 (U+00B2)", "write `square(..)`"},
+    {"\xC2\xB5", "the sign of micro (U+00B5)", "write mm: `0.005 mm`"},
+    {"\xCE\xBC", "the letter mu (U+03BC)", "write mm: `0.005 mm`"},
+    {"\xC2\xB1", "the sign (U+00B1) for plus or minus", "write the value and the tolerance apart"},
+    {"\xE2\x80\xB3", "a double prime (U+2033)", "write ` in` for inches"},
+    {"\xE2\x80\x9C", "a typographic quote (U+201C)", "write `\"`"},
+    {"\xE2\x80\x9D", "a typographic quote (U+201D)", "write `\"`"},
+    {"\xE2\x80\x9E", "a typographic quote (U+201E)", "write `\"`"},
+    {"\xC2\xAB", "a typographic quote (U+00AB)", "write `\"`"},
+    {"\xC2\xBB", "a typographic quote (U+00BB)", "write `\"`"},
+    {"\xE2\x80\x98", "a typographic quote (U+2018)", "write a text in `\"`"},
+    {"\xE2\x80\x99", "a typographic quote (U+2019)", "write a text in `\"`"},
+};
+
+// The first of them in the text; nullptr: there is none.
+const ForeignSign* foreignSignOf(std::string_view text) {
+  const ForeignSign* first = nullptr;
+  std::size_t at = text.size();
+  for (const ForeignSign& sign : kForeignSigns)
+    if (const std::size_t found = text.find(sign.text); found < at) {
+      at = found;
+      first = &sign;
+    }
+  return first;
+}
+
 // How a message begins whose fault is the first word of the line, whatever comes after it.
 constexpr std::string_view kNoStatement = "no statement begins with";
+
+// What hands write that know another language; "": none of these. `before`: the token before, `head`: the
+// first of the line.
+std::string foreignHabit(const antlr4::Token& offending, const antlr4::Token* before,
+                         const antlr4::Token& head) {
+  const std::string text = offending.getText(), first = head.getText();
+  const bool afterNumber = before != nullptr && before->getType() == Lexer::NUMBER;
+  if (offending.getType() == Lexer::OPEN_TEXT && afterNumber)
+    return fmt::format("inches are written `in`: `{} in`", before->getText());
+  if (&head == &offending && text == "(") return "a comment begins with `//`; no statement begins with `(`";
+  if (text.starts_with('[') || text.starts_with(']'))
+    return "there are no lists; give each value a name of its own, or compute it in the loop";
+  if (text.starts_with('^') || (text == "*" && before != nullptr && before->getText() == "*"))
+    return "a power is a product: write `square(..)` or `a * a`";
+  if (text.starts_with('&')) return "write `and`";
+  if (text.starts_with('|')) return "write `or`";
+  if (first.starts_with('#') || text.starts_with('#'))
+    return "a cycle has no variables of the control; declare `result NAME : length`, and name the variable "
+           "when it is converted: `--result NAME=#500`";
+  const bool opens = before != nullptr && (before->getText() == "then" || before->getText() == "else");
+  if (opens && offending.getType() != Lexer::NEWLINE && text != "if")
+    return fmt::format("what is to happen is in the lines after `{}`, and `end` closes them; write `{}` in a "
+                       "line of its own",
+                       before->getText(), text);
+  return "";
+}
 
 // What is wrong with a line that the grammar does not take, at its first token that does not fit.
 std::string explain(const antlr4::Token& offending, const antlr4::Parser& parser) {
@@ -181,8 +267,19 @@ std::string explain(const antlr4::Token& offending, const antlr4::Parser& parser
   const size_t type = offending.getType();
   const std::string_view usage = usageOf(lowerCase(word));
   const std::string write = usage.empty() ? "" : fmt::format("; write {}", usage);
+  for (const std::string& one : {text, word})
+    if (const ForeignSign* sign = one.starts_with('"') ? nullptr : foreignSignOf(one))
+      return fmt::format("this is {}; {}", sign->name, sign->write);
   if (type != Lexer::OPEN_TEXT)
     if (std::string meant = foreignForm(Line(offending, input, first)); !meant.empty()) return meant;
+  size_t last = offending.getTokenIndex();
+  while (last > first && input.get(--last)->getChannel() != antlr4::Token::DEFAULT_CHANNEL) {
+  }
+  const antlr4::Token* const before =
+      last < offending.getTokenIndex() && input.get(last)->getChannel() == antlr4::Token::DEFAULT_CHANNEL
+          ? input.get(last)
+          : nullptr;
+  if (const std::string habit = foreignHabit(offending, before, head); !habit.empty()) return habit;
   if (type == Lexer::OPEN_TEXT) return "the text has no closing quote; write `\"` at its end";
   if (first + 1 >= input.size()) input.LT(2); // it may not have been read yet
   const size_t next = first + 1 < input.size() ? input.get(first + 1)->getType() : antlr4::Token::EOF;
@@ -226,10 +323,7 @@ std::string explain(const antlr4::Token& offending, const antlr4::Parser& parser
     return fmt::format("names are written small, with `_` between words: `{}`", proposeName(text));
   // `12 cm`: what follows a number is its unit.
   const size_t at = offending.getTokenIndex();
-  size_t before = at;
-  while (before > first && input.get(before - 1)->getChannel() != antlr4::Token::DEFAULT_CHANNEL)
-    --before;
-  if (isForeignUnit(text) && before > first && input.get(before - 1)->getType() == Lexer::NUMBER)
+  if (isForeignUnit(text) && before != nullptr && before->getType() == Lexer::NUMBER)
     return fmt::format("`{}` is no unit of the language; those are mm, in, deg, mm/min, in/min and s", text);
   // A value that has been called like one: `s.error`.
   if (at + 1 >= input.size()) input.LT(2);

@@ -360,6 +360,88 @@ z_at = p.at_x + p.error
 }
 
 // Upward the ball is hidden by its stem.
+TEST_CASE("cycle lowering: given NAME says whether a touch found anything") {
+  const std::string head = "cycle search \"Search\"\nresult face : length \"F\"\nneeds probe\nface = 0 mm\n";
+  CHECK(Lowering(head + "touch x by 9 mm -> wall else\n  move by y 1 mm\nend\n"
+                        "if given wall and wall.at > 2 mm then\n  face = wall.at\nend\n")
+            .body() == R"(set wall_found = {0}
+set face = 0.
+cycle "surface" x: target x = here 9., miss = {1}
+if result probe-error <> {0} goto not_found
+set wall_at = result x
+set wall_found = {1}
+goto found
+label not_found
+set wall_found = {0}
+move rapid y = here 1.
+label found
+if wall_found = {0} goto otherwise
+if wall_at <= 2. goto otherwise
+set face = wall_at
+label otherwise
+cycle "results": face = face
+)");
+  // A search in steps; `given` stands before the touch.
+  const Lowering search(head + "while not given wall at most 9 times\n  touch x by 5 mm -> wall else\n"
+                               "    move by x 5 mm\n  end\nend\nif not given wall then\n"
+                               "  alarm \"Nothing\"\nend\nface = wall.at\n");
+  CHECK(search.body().find("if wall_found <> {0} goto loop_end") != std::string::npos);
+}
+
+TEST_CASE("cycle lowering: after a set the start of a called cycle is a place and no coordinate") {
+  const Texts two = {{"pair",
+                      "cycle pair \"Pair\"\nresult wide : length \"W\"\nneeds probe\n"
+                      "touch x by 9 mm -> aa\nmove to x aa.at - 9 mm\nmove to start\nwide = aa.at\n"}};
+  const std::string head = "cycle main \"M\"\nresult wide : length \"W\"\nneeds probe\n"
+                           "touch x by 5 mm -> edge\nset G54: edge.at becomes x 0 mm\n";
+  const std::string rest = "call pair -> found\nwide = found.wide\n";
+  const Lowering good(head + "move to start\nmove by x 50 mm\n" + rest, two);
+  CHECK(good.body().find("move rapid x = start 50.") != std::string::npos);
+  // Where the probe is after the `set` nobody knows as a coordinate; the line of the caller is named.
+  const Lowering bad(head + "move by x 50 mm\n" + rest, two);
+  CHECK(!bad.lowered);
+  REQUIRE(bad.diagnostics.all().size() == 1);
+  const Diagnostic& found = bad.diagnostics.all().front();
+  CHECK(found.code == "place-unknown");
+  CHECK(bad.sources.line(found.range) == 7);
+  CHECK(found.notes.size() == 1);
+  CHECK(found.message.find("`move to start`") != std::string::npos);
+  const Texts reads = {{"pair", "cycle pair \"Pair\"\nresult wide : length \"W\"\nneeds probe\n"
+                                "touch x by 9 mm -> aa\nwide = start.x\n"}};
+  CHECK(refusal(head + "move to start\n" + rest, reads) == "start-shifted");
+}
+
+TEST_CASE("cycle lowering: a move there and back again is no move") {
+  CHECK(
+      Lowering("cycle back \"B\"\nparameter down : length \"D\"\nneeds probe\nrepeat 2 times\n"
+               "  move by z -down\n  touch x by 5 mm\n  move by z down\nend\nmove by x 3 mm\nmove to start\n")
+          .lowered);
+}
+
+TEST_CASE("cycle lowering: coordinates from before a set and from after it are not mixed") {
+  const auto codes = [](const std::string& text) {
+    const Lowering lowering("cycle main \"M\"\nparameter system : work_offset optional \"S\"\n"
+                            "result wide : length \"W\"\nneeds probe\ntouch x by 5 mm -> aa\n" +
+                            text);
+    std::string out;
+    for (const Diagnostic& one : lowering.diagnostics.all())
+      out += std::string(one.code) + " " + std::to_string(lowering.sources.line(one.range)) + " ";
+    return out;
+  };
+  const std::string set = "if given system then\n  set system: aa.at becomes x 0 mm\nend\n";
+  CHECK(codes(set + "touch x by 6 mm -> bb\nwide = bb.at - aa.at\n") == "coordinates-mixed 10 ");
+  CHECK(codes(set + "touch x by 6 mm -> bb\nwide = 0 mm\nif bb.at > aa.at then\n  wide = 1 mm\nend\n") ==
+        "coordinates-mixed 11 ");
+  CHECK(codes(set + "wide = 0 mm\nmove to x aa.at - 5 mm\n") == "coordinates-mixed 10 ");
+  // Distances stay, also from both sides of the `set`; other axes stay; before it all is one system.
+  CHECK(codes("touch x by -6 mm -> bb\nwide = aa.at - bb.at\n" + set +
+              "touch x by 7 mm -> cc\n"
+              "touch x by -7 mm -> dd\nwide = (cc.at - dd.at) - wide\n")
+            .empty());
+  CHECK(codes(set + "touch y by 6 mm -> bb\nmove to y bb.at - 9 mm\nwide = aa.at\n").empty());
+  CHECK(codes("touch x by 6 mm -> bb\nwide = bb.at - aa.at\n" + set).empty());
+}
+
 TEST_CASE("cycle lowering: a touch in z leads downward, or an alarm comes first") {
   const auto cycleOf = [](const std::string& clause, const std::string& touch) {
     return Lowering("cycle demo \"C\"\nparameter w : length \"W\"" + clause + "\nspindle off\nprobe on\n" +

@@ -1,0 +1,218 @@
+// What a `set` does to coordinates: where it may have moved them, and values that mix those from before it
+// with those from after it.
+#include "frontend/cycle/Lowering.h"
+#include "ir/CycleNames.h"
+#include "ir/Dataflow.h"
+#include "ir/Match.h"
+#include "ir/Walk.h"
+#include "support/messages/Cycle.h"
+
+#include <cmath>
+
+namespace dotek::frontend::cycle {
+namespace {
+
+using Axes = std::array<bool, 3>;
+
+// Axes that the statement sets.
+Axes setBy(const ir::CycleStatement& statement) {
+  Axes out{};
+  if (const auto* call = std::get_if<ir::CallCycle>(&statement.node)) {
+    if (call->setting) out = call->setting->axes;
+    out[2] = out[2] || call->setsTool;
+  }
+  return out;
+}
+
+// How a value follows a shift of the coordinates along an axis: 1 for a coordinate, 0 for a distance.
+struct Weight {
+  double now = 0;       // of coordinates that hold
+  double old = 0;       // of those from before a `set`
+  bool unclear = false; // paths disagree, or it is no sum
+};
+using Weights = std::array<Weight, 3>;
+using Known = std::map<ir::VariableId, Weights>;
+
+bool isSome(double weight) {
+  return std::abs(weight) > 1e-9;
+}
+
+class Reader {
+public:
+  explicit Reader(const Known& known) : known_(known) {}
+
+  Weights of(const ir::ExpressionPtr& value) const {
+    Weights out;
+    if (value == nullptr) return out;
+    if (const auto* result = std::get_if<ir::MeasuredResult>(&value->node)) {
+      if (result->name == ir::ResultName::PositionX) out[0].now = 1;
+      if (result->name == ir::ResultName::PositionY) out[1].now = 1;
+      if (result->name == ir::ResultName::PositionZ) out[2].now = 1;
+      return out;
+    }
+    if (const auto* use = std::get_if<ir::VariableUse>(&value->node)) {
+      const auto found = known_.find(use->variable);
+      return found == known_.end() ? out : found->second;
+    }
+    if (const auto* one = std::get_if<ir::Unary>(&value->node))
+      return one->op == ir::UnaryOp::Negate ? scaled(of(one->operand), -1) : out;
+    const auto* both = std::get_if<ir::Binary>(&value->node);
+    if (both == nullptr) return out;
+    const double* left = ir::constantValue(both->left);
+    const double* right = ir::constantValue(both->right);
+    switch (both->op) {
+    case ir::BinaryOp::Add: return sum(of(both->left), of(both->right), 1);
+    case ir::BinaryOp::Subtract: return sum(of(both->left), of(both->right), -1);
+    case ir::BinaryOp::Multiply:
+      if (right != nullptr) return scaled(of(both->left), *right);
+      return left != nullptr ? scaled(of(both->right), *left) : out;
+    case ir::BinaryOp::Divide:
+      return right != nullptr && *right != 0 ? scaled(of(both->left), 1 / *right) : out;
+    default: return out;
+    }
+  }
+
+  static Weights sum(Weights a, const Weights& b, double factor) {
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      a[i].now += factor * b[i].now;
+      a[i].old += factor * b[i].old;
+      a[i].unclear = a[i].unclear || b[i].unclear;
+    }
+    return a;
+  }
+  static Weights scaled(Weights a, double factor) { return sum(Weights{}, a, factor); }
+
+private:
+  const Known& known_;
+};
+
+template <class Visit> void eachComparison(const ir::Condition& condition, const Visit& visit) {
+  if (const auto* one = std::get_if<ir::Comparison>(&condition.node)) visit(*one);
+  if (const auto* negated = std::get_if<ir::Not>(&condition.node)) eachComparison(*negated->inner, visit);
+  if (const auto* both = std::get_if<ir::Junction>(&condition.node)) {
+    eachComparison(*both->left, visit);
+    eachComparison(*both->right, visit);
+  }
+}
+
+bool same(const Weight& a, const Weight& b) {
+  return a.unclear == b.unclear && !isSome(a.now - b.now) && !isSome(a.old - b.old);
+}
+
+bool meet(Known& into, const Known& other) {
+  bool changed = false;
+  for (const auto& [id, weights] : other) {
+    const auto [at, isNew] = into.try_emplace(id, weights);
+    changed = changed || isNew;
+    for (std::size_t i = 0; !isNew && i < weights.size(); ++i) {
+      Weight& mine = at->second[i];
+      if (mine.unclear || same(mine, weights[i])) continue;
+      // A coordinate that only one of the ways has made old.
+      const bool aged = !weights[i].unclear &&
+                        !isSome(mine.now + mine.old - weights[i].now - weights[i].old) &&
+                        (!isSome(mine.now) || !isSome(weights[i].now));
+      const Weight joined = aged ? Weight{0, mine.now + mine.old, false} : Weight{0, 0, true};
+      if (same(mine, joined)) continue;
+      mine = joined;
+      changed = true;
+    }
+  }
+  return changed;
+}
+
+} // namespace
+
+std::vector<std::array<bool, 3>> Lowering::shiftedBefore(const std::vector<ir::CycleStatement>& list) const {
+  const auto facts = ir::factsBefore(
+      list, Axes{},
+      [&](std::size_t at, std::size_t, Axes fact) {
+        const Axes set = setBy(list[at]);
+        for (std::size_t i = 0; i < fact.size(); ++i)
+          fact[i] = fact[i] || set[i];
+        return fact;
+      },
+      [](Axes& into, const Axes& other) {
+        const Axes before = into;
+        for (std::size_t i = 0; i < into.size(); ++i)
+          into[i] = into[i] || other[i];
+        return into != before;
+      });
+  std::vector<Axes> out;
+  for (const auto& fact : facts)
+    out.push_back(fact.value_or(Axes{}));
+  return out;
+}
+
+void Lowering::warnMixed() {
+  constexpr std::size_t kMostWork = 4'000'000; // statements times variables
+  const std::vector<ir::CycleStatement>& list = cycle_.body;
+  bool sets = false;
+  for (const ir::CycleStatement& statement : list)
+    sets = sets || setBy(statement) != Axes{};
+  if (!sets || list.size() * cycle_.variables.size() > kMostWork) return;
+  const auto after = [&](std::size_t at, std::size_t, Known fact) {
+    if (const auto* assign = std::get_if<ir::Assign>(&list[at].node)) {
+      Weights weights = Reader(fact).of(assign->value);
+      if (const auto place = places_.find(assign->variable); place != places_.end())
+        weights[ir::indexOf(place->second)] = {1, 0, false};
+      fact[assign->variable] = weights;
+    }
+    const Axes set = setBy(list[at]);
+    for (auto& [id, weights] : fact)
+      for (std::size_t i = 0; i < set.size(); ++i)
+        if (set[i]) weights[i] = {0, weights[i].now + weights[i].old, weights[i].unclear};
+    return fact;
+  };
+  const auto facts = ir::factsBefore(list, Known{}, after, meet);
+  for (std::size_t at = 0; at < list.size(); ++at) {
+    if (!facts[at]) continue;
+    const ir::CycleStatement& statement = list[at];
+    if (statement.origin.block != 0) continue; // to the start, which is a place
+    const Reader reader(*facts[at]);
+    site_ = statement.origin.place;
+    const auto warn = [&](std::size_t i, const char* what, const char* how) {
+      report(makeDiagnostic<diag::CoordinatesMixed>(statement.origin.range(), what, std::string(1, "xyz"[i]),
+                                                    how));
+    };
+    const auto mixed = [&](const Weights& weights) {
+      for (std::size_t i = 0; i < weights.size(); ++i)
+        if (!weights[i].unclear && isSome(weights[i].now) && isSome(weights[i].old)) {
+          warn(i, "a coordinate", "meets one from after it");
+          return;
+        }
+    };
+    ir::eachNode(statement, [&](const ir::Expression& node) {
+      const auto* both = std::get_if<ir::Binary>(&node.node);
+      if (both == nullptr) return;
+      if (both->op == ir::BinaryOp::Add) mixed(Reader::sum(reader.of(both->left), reader.of(both->right), 1));
+      if (both->op == ir::BinaryOp::Subtract)
+        mixed(Reader::sum(reader.of(both->left), reader.of(both->right), -1));
+    });
+    if (const ir::ConditionPtr* condition = ir::conditionOf(statement);
+        condition != nullptr && *condition != nullptr)
+      eachComparison(**condition, [&](const ir::Comparison& one) {
+        mixed(Reader::sum(reader.of(one.left), reader.of(one.right), -1));
+      });
+    const auto coordinate = [&](const ir::ExpressionPtr& value, std::size_t i) {
+      const Weight weight = reader.of(value)[i];
+      if (!weight.unclear && isSome(weight.old) && !isSome(weight.now))
+        warn(i, "a coordinate", "is used as one after it");
+    };
+    const auto target = [&](const std::optional<ir::Coordinate>& one, std::size_t i) {
+      if (one && one->frame == ir::Frame::Work && one->system == nullptr) coordinate(one->value, i);
+    };
+    if (const auto* move = std::get_if<ir::Move>(&statement.node))
+      for (std::size_t i = 0; i < 3; ++i)
+        target(move->axes[i], i);
+    if (const auto* measure = std::get_if<ir::Measure>(&statement.node))
+      target(measure->target, ir::indexOf(measure->axis));
+    if (const auto* call = std::get_if<ir::CallCycle>(&statement.node))
+      for (const ir::CycleArgument& one : call->arguments)
+        if (one.frame == ir::Frame::Work || one.parameter.starts_with("measured "))
+          if (const char axis = one.parameter.back(); axis >= 'x' && axis <= 'z')
+            coordinate(one.value, static_cast<std::size_t>(axis - 'x'));
+  }
+  site_ = 0;
+}
+
+} // namespace dotek::frontend::cycle
