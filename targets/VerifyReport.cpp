@@ -1,6 +1,7 @@
 #include "targets/VerifyReport.h"
 
 #include "stdlib/HostInputs.h"
+#include "support/Ascii.h"
 #include "support/Decimal.h"
 #include "support/messages/Verify.h"
 #include "targets/Target.h"
@@ -34,6 +35,46 @@ std::string quoted(const std::string& text) {
 
 void addFlag(std::string& command, std::string_view name, const std::string& value) {
   command += fmt::format(" {} {}", name, quoted(value));
+}
+
+bool isHeight(std::string_view host) {
+  return host == "clearance" || host == "retract" || host == "start_z";
+}
+
+// What a text says, without its numbers, and by how much those before "against" differ from those after it.
+struct Said {
+  std::string words;
+  double apart = 0;
+};
+
+Said saidIn(const std::string& text) {
+  Said out;
+  std::vector<double> numbers;
+  std::size_t before = 0; // how many come before "against"
+  for (std::size_t i = 0; i < text.size();) {
+    const bool sign = text[i] == '-' && i + 1 < text.size() && isDigit(text[i + 1]);
+    if (!sign && !isDigit(text[i])) {
+      if (text.compare(i, 7, "against") == 0) before = numbers.size();
+      out.words += text[i++];
+      continue;
+    }
+    std::size_t end = i + 1;
+    while (end < text.size() && (isDigit(text[end]) || text[end] == '.'))
+      ++end;
+    numbers.push_back(parseNumber(text.substr(i, end - i)).value_or(0));
+    out.words += '0';
+    i = end;
+  }
+  for (std::size_t i = 0; numbers.size() == 2 * before && i < before; ++i)
+    out.apart = std::max(out.apart, std::abs(numbers[i] - numbers[before + i]));
+  return out;
+}
+
+// The same difference, though of other values: it may have become smaller, not much larger.
+bool saysTheSame(const std::string& one, const std::string& simpler) {
+  constexpr double kLarger = 10;
+  const Said a = saidIn(one), b = saidIn(simpler);
+  return a.words == b.words && b.apart <= kLarger * a.apart;
 }
 
 bool before(const SourceRange& a, const SourceRange& b) {
@@ -134,8 +175,9 @@ bool VerifyReport::tellStopped() {
 
 bool VerifyReport::stillDiffers(const verify::Case& drawn, const CaseFinding& finding) {
   const CaseResult result = runner_.run(drawn);
-  return std::any_of(result.findings.begin(), result.findings.end(),
-                     [&](const CaseFinding& one) { return keyOf(false, one) == keyOf(false, finding); });
+  return std::any_of(result.findings.begin(), result.findings.end(), [&](const CaseFinding& one) {
+    return keyOf(false, one) == keyOf(false, finding) && saysTheSame(finding.text, one.text);
+  });
 }
 
 // Simpler values as long as the same difference stays.
@@ -167,6 +209,9 @@ verify::Case VerifyReport::shrink(const Group& group) {
         continue;
       verify::Case simpler = best;
       (simpler.*member)[name] = value;
+      if (member == &verify::Case::hosts && isHeight(name)) // planes that are one stay one
+        for (auto& [other, height] : simpler.hosts)
+          if (isHeight(other) && height == now && !plan_.fixedHosts.contains(other)) height = value;
       if (setsActive(simpler) && !setsActive(best)) continue;
       if (attempt(simpler)) return;
     }
@@ -233,6 +278,10 @@ std::string VerifyReport::replay(const verify::Case& drawn) const {
   }
   for (const auto& [name, text] : options_.common.set)
     if (!known.contains(name)) flag("--set", name + "=" + text);
+  for (const auto& [number, value] : drawn.variables)
+    flag("--var", fmt::format("{}={}", number, numberText(value)));
+  for (const auto& [number, text] : options_.variables)
+    if (!plan_.programs) flag("--var", number + "=" + text);
   known.clear();
   const bool asHost = plan_.programs || writtenForCase;
   for (const auto& [name, value] : drawn.hosts) {
