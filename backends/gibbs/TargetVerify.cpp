@@ -109,7 +109,8 @@ public:
     for (const auto& [name, value] : now.drawn.values)
       if (const auto field = fields_.find(name); field != fields_.end()) values.values[field->second] = value;
     for (const auto& [name, field] : fields_)
-      if (const auto host = now.drawn.hosts.find(name); host != now.drawn.hosts.end())
+      if (const auto host = now.drawn.hosts.find(name);
+          host != now.drawn.hosts.end() && !now.drawn.values.contains(name))
         values.values[field] = host->second;
     for (const char* host : {"retract", "clearance"})
       values.hosts.try_emplace(host, now.drawn.hosts.at("start_z"));
