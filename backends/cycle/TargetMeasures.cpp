@@ -33,9 +33,20 @@ void takeExpected(const verify::Measure& source, verify::Measure& own) {
   }
 }
 
+// How far beside the feature the first touch begins, where the source's call says so, as that counts it.
+std::optional<double> clearanceOf(const verify::Measure& source, const verify::Measure& first,
+                                  double ballRadius) {
+  const auto stated = source.options.find(stdlib::ArgumentRole::Clearance);
+  if (stated == source.options.end() || first.nominal.empty()) return std::nullopt;
+  const verify::Touch& touch = first.nominal.front();
+  const double apart = std::abs(along(touch.point - first.start, touch.direction)) - ballRadius;
+  if (std::abs(apart - std::abs(stated->second)) <= kSame) return stated->second;
+  return stated->second < 0 ? -apart : apart;
+}
+
 } // namespace
 
-verify::Record joinedMeasures(const verify::Record& source, const verify::Record& ran) {
+verify::Record joinedMeasures(const verify::Record& source, const verify::Record& ran, double ballRadius) {
   const bool several = std::any_of(source.measures.begin(), source.measures.end(),
                                    [](const verify::Measure& one) { return one.nominal.size() > 1; });
   if (!several) return ran;
@@ -78,6 +89,8 @@ verify::Record joinedMeasures(const verify::Record& source, const verify::Record
         if (touches++ == 0) {
           joined.with = one.with, joined.range = one.range, joined.options = one.options;
           joined.travels = one.travels, joined.aim = one.aim;
+          if (const std::optional<double> clearance = clearanceOf(call, one, ballRadius))
+            joined.options[stdlib::ArgumentRole::Clearance] = *clearance;
           whole.with = inside.with, whole.range = inside.range, whole.feed = inside.feed;
           whole.modes = inside.modes, whole.frame = inside.frame;
         }

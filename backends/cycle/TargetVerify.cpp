@@ -53,6 +53,7 @@ public:
       kept.emplace_back(name, fmt::format("#{}", number));
     Diagnostics ignored; // an edited cycle may have other results
     keepResults(cycle_, kept, ignored);
+    if (from_.options.translation) compareParameters();
     return true;
   }
 
@@ -77,6 +78,9 @@ public:
       compareRejection(record, now, out);
     else if (now.source != nullptr)
       compareRecords(record, now, out);
+    if (now.questions != nullptr && !now.rejected)
+      for (const auto& [text, line] : ofParameters_)
+        out.differsAt(verify::Aspect::Variable, text, line);
     return out;
   }
 
@@ -121,6 +125,44 @@ private:
       }
     }
     return out;
+  }
+
+  // What a caller reads of an edited cycle and takes where he gives nothing: as the dialog of the source says
+  // it. What is written now says how the language puts it.
+  void compareParameters() {
+    std::string text;
+    for (const backends::EmittedLine& line : written_->lines)
+      text += line.text + "\n";
+    Diagnostics ignored;
+    ReadCycle read(from_.session);
+    if (!read.read("written", text, ignored)) return;
+    const std::optional<frontend::cycle::Lowered> written = read.lowered(ignored);
+    if (!written) return;
+    const auto value = [](const ir::Variable& one) {
+      return one.defaultValue ? fmt::format("{}", *one.defaultValue) : std::string("none");
+    };
+    for (const ir::Variable& wanted : written->cycle.variables) {
+      if (wanted.role != ir::Role::Parameter) continue;
+      const auto own =
+          std::find_if(cycle_.variables.begin(), cycle_.variables.end(), [&](const ir::Variable& one) {
+            return one.role == ir::Role::Parameter && one.name == wanted.name;
+          });
+      if (own == cycle_.variables.end()) continue; // where it matters the values tell
+      const std::uint32_t line = lineOf(own->range);
+      if (own->defaultValue != wanted.defaultValue)
+        ofParameters_.emplace_back(fmt::format("default of `{}`: the source has {}, the translation {}",
+                                               own->name, value(wanted), value(*own)),
+                                   line);
+      // In other words it may say the same.
+      const auto& all = written->cycle.variables;
+      const bool ofAnother = std::any_of(all.begin(), all.end(), [&](const ir::Variable& one) {
+        return one.role == ir::Role::Parameter && one.name != wanted.name && one.meaning == own->meaning;
+      });
+      if (own->meaning != wanted.meaning && ofAnother)
+        ofParameters_.emplace_back(fmt::format("title of `{}`: the source says `{}`, the translation `{}`",
+                                               own->name, wanted.meaning, own->meaning),
+                                   line);
+    }
   }
 
   std::uint32_t lineOf(SourceRange range) const {
@@ -181,7 +223,7 @@ private:
       out.why = "the source moves with the probe off where the cycle meets something and stops";
       return;
     }
-    verify::Record own = joinedMeasures(*now.source, record);
+    verify::Record own = joinedMeasures(*now.source, record, now.drawn.hosts.at("tool_radius"));
     leaveProbeOn(*now.source, own);
     // A limit that the macros look at by themselves is an `alarm` of the cycle.
     for (const MacroAlarm kind : {MacroAlarm::UpperLimit, MacroAlarm::OutOfTolerance,
@@ -225,6 +267,7 @@ private:
   FileId file_ = 0;
   std::optional<backends::cycle::Emitted> written_;
   ir::Cycle cycle_;
+  std::vector<std::pair<std::string, std::uint32_t>> ofParameters_; // differences, each with its line
 };
 
 } // namespace
