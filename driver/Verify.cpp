@@ -77,7 +77,6 @@ private:
     const auto none = [&]<class Message>(bool given, std::string_view flag, Message) {
       if (given) diagnostics.report<Message>({}, flag);
     };
-    none(!options_.variables.empty(), "--var", diag::OptionOfPrograms{});
     none(!options_.fromControl.empty(), "--from-control", diag::OptionOfPrograms{});
     if (options_.to.empty()) {
       none(options_.programNumber.has_value(), "--program-number", diag::FlagWithoutTarget{});

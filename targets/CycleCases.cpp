@@ -7,6 +7,7 @@
 #include "project/Prog.h"
 #include "project/Programs.h"
 #include "project/Values.h"
+#include "project/VariableFlags.h"
 #include "sim/machine/Compile.h"
 #include "sim/machine/Value.h"
 #include "sim/machine/VendorMacros.h"
@@ -138,6 +139,8 @@ bool CaseRunner::prepare() {
   draws_.emplace(std::move(near), std::move(hosts), plan_.fixedHosts, options_.seed, plan_.bounds,
                  options_.cases);
   sourceSet_ = session_.macroSet(plan_.sourceMacros);
+  variables_ = variablesOf(options_.variables, session_.diagnostics());
+  if (session_.diagnostics().hasErrors()) return false;
   std::vector<const stdlib::MacroSet*> sets;
   if (sourceSet_ != nullptr) sets.push_back(sourceSet_);
   sourceStand_.emplace(*inputs_->sourceControl, sets, session_.limits());
@@ -334,6 +337,7 @@ std::unique_ptr<CaseRunner::Values> CaseRunner::attemptAsIs(const verify::Case& 
   if (nominal_ != nullptr && !leadToNominal(values)) return nullptr;
   if (routine_ == nullptr) return values;
   if (!values->posted && !readPosted(*values)) return nullptr;
+  drawVariables(*values);
   if (selects_ == false) {
     // Only some values make the post select something.
     const Selected found = selectedIn(values->posted->file.programs.front(), *inputs_->sourceControl);
@@ -494,6 +498,7 @@ bool CaseRunner::readPosted(Values& values) {
     values.losesDigits = true;
   posted->code = sim::compile({&program}, *inputs_->sourceControl, posted->sources);
   values.posted = std::move(posted);
+  findReads(values);
   return true;
 }
 

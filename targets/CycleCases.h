@@ -99,6 +99,9 @@ private:
   bool takeStatedPart(Values& values);
   void misplace(Values& values) const;
   sim::Point3 zeroOf(const verify::Case& drawn) const;
+  void findReads(Values& values);
+  bool isGiven(std::uint32_t variable) const; // by --var
+  void drawVariables(Values& values);
   bool post(Values& values);
   bool readPosted(Values& values);
   void findMacros(const ir::Program& program);
@@ -135,8 +138,10 @@ private:
   bool unreadable_ = false; // the path cannot be run, whatever is drawn
   std::optional<bool>
       selects_; // the post selects a work system or a tool offset by itself; nothing: not known
-  std::unique_ptr<Values> drawn_;      // of draw(), for the next run()
-  std::uint32_t tries_ = 0;            // proposals of the last draw() or another()
+  std::unique_ptr<Values> drawn_; // of draw(), for the next run()
+  std::uint32_t tries_ = 0;       // proposals of the last draw() or another()
+  std::uint32_t others_ = 0;      // cases that another() has drawn for the last draw()
+  std::vector<std::pair<std::uint32_t, double>> variables_; // of --var
   std::map<std::string, bool> moving_; // fields of which Questions knows whether they move something
 
   const stdlib::MacroSet* sourceSet_ = nullptr;

@@ -22,11 +22,13 @@ constexpr std::uint64_t kCallerCases = 8; // in which callers break what the tra
 
 std::optional<verify::Case> CaseRunner::draw(std::uint64_t index) {
   rejected_.clear();
+  others_ = 0;
   return drawFrom(index, 0, kAttempts, false);
 }
 
 std::optional<verify::Case> CaseRunner::another(std::uint64_t index) {
   if (options_.replay) return std::nullopt;
+  ++others_;
   return drawFrom(index, tries_, std::min(kAttempts, tries_ + kMoreAttempts), true);
 }
 

@@ -3,6 +3,7 @@
 
 #include "ir/Program.h"
 #include "targets/CycleCases.h"
+#include "verify/Variables.h"
 
 namespace dotek::targets {
 
@@ -12,6 +13,7 @@ struct CaseRunner::Posted {
   ir::ProgramFile file;
   sim::Bytecode code;
   std::set<std::uint32_t> stores;
+  std::vector<verify::ProgramVariable> reads;      // common variables, before anything writes them
   bool stopsSpindle = false, stopsCoolant = false; // by codes of its own
 };
 
@@ -28,7 +30,8 @@ struct CaseRunner::Values {
   bool losesDigits = false;              // the post prints fewer digits of a value than it has
   std::unique_ptr<Posted> posted;
   std::optional<verify::Record> rehearsal;
-  std::optional<std::uint64_t> caller = {}; // whose caller it has; nothing: one of its own values
+  std::map<std::uint32_t, double> presets = {}; // variables that the macros of the translation want
+  std::optional<std::uint64_t> caller = {};     // whose caller it has; nothing: one of its own values
 };
 
 // Runs of the source beside those of one case. What it learns of the fields is kept for the next.

@@ -244,10 +244,11 @@ bool keepsWear(const std::optional<stdlib::Control>& control) {
 
 } // namespace
 
-verify::Record CycleFileRunner::runCycle(const verify::Case& drawn, sim::World& world, bool keepMoves) const {
+verify::Record CycleFileRunner::runCycle(const verify::Case& drawn, sim::World& world, bool keepMoves,
+                                         const verify::Interference& interference) const {
   verify::Entry entry = entryOf(drawn);
   putTools(toolEntries(plan_, drawn), keepsWear(inputs_->control), entry);
-  return stand_->run(cycle(), inputsOf(drawn), world, entry, stores_, keepMoves);
+  return stand_->run(cycle(), inputsOf(drawn), world, entry, stores_, keepMoves, false, interference);
 }
 
 // A rehearsal says which surfaces it expects, the part is made of them, then it runs.

@@ -49,7 +49,8 @@ private:
   struct Played; // the cycle's own run of a case
   class Questions;
   std::unique_ptr<Played> play(verify::Case drawn, bool drawError);
-  verify::Record runCycle(const verify::Case& drawn, sim::World& world, bool keepMoves) const;
+  verify::Record runCycle(const verify::Case& drawn, sim::World& world, bool keepMoves,
+                          const verify::Interference& interference = {}) const;
   sim::CycleInputs inputsOf(const verify::Case& drawn) const;
   verify::Entry entryOf(const verify::Case& drawn) const;
   sim::MachineLimits limits() const;

@@ -27,9 +27,12 @@ SourceQuestions::Ran CycleFileRunner::Questions::from(const verify::Entry&) {
   return {};
 }
 
-// It has no bare skip moves: a touch that finds nothing is an alarm.
-SourceQuestions::Ran CycleFileRunner::Questions::disturbed(const verify::Interference&) {
-  return {};
+SourceQuestions::Ran CycleFileRunner::Questions::disturbed(const verify::Interference& interference) {
+  Ran out;
+  sim::World world(*played_.part, probeFor(runner_.plan_, played_.drawn), runner_.limits());
+  out.record = runner_.runCycle(played_.drawn, world, false, interference);
+  if (out.record.ending != verify::Ending::Inconclusive) out.answer = Answer::Runs;
+  return out;
 }
 
 bool CycleFileRunner::Questions::moves(const std::string&) {

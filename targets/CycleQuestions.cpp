@@ -224,6 +224,11 @@ verify::Entry CaseRunner::entryOf(const Values& values, bool probeOn) const {
   if (values.posted)
     selectExtended(values.posted->file.programs.front(), *inputs_->sourceControl,
                    target_ == nullptr || !(target_->datumsMovePath() || target_->needsNominal()), out);
+  for (const auto& [number, value] : variables_)
+    out.variables.emplace_back(number, value);
+  for (const auto* given : {&values.presets, &values.drawn.variables})
+    for (const auto& [number, value] : *given)
+      out.variables.emplace_back(number, value);
   if (!plan_.translation) return out;
   verify::Random random(values.caller.value_or(callerStream(values.drawn)));
   out.feed = 50.5 + static_cast<double>(random.below(4000));

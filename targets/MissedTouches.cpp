@@ -73,29 +73,103 @@ private:
   std::set<long> found_;
 };
 
+// One protected move, where the source turns before its end.
+class Turning {
+public:
+  Turning(const DisturbedSides& sides, std::size_t move) : sides_(sides), move_(move) {}
+
+  // Steps before the end: the last one where it goes on as if it had come there, and so the first one where
+  // it does not is the next; 0: there is none.
+  long find() const {
+    constexpr long kFar = 1000; // of a limit that programs ask for
+    long near = 1, far = kFar;
+    const std::optional<verify::Record> one = sides_.source(at(near)), other = sides_.source(at(far));
+    if (!one || !other || sameWay(*one, *other)) return 0;
+    while (far - near > 1) {
+      const long middle = near + (far - near) / 2;
+      const std::optional<verify::Record> now = sides_.source(at(middle));
+      if (!now) return 0;
+      (sameWay(*now, *one) ? near : far) = middle;
+    }
+    return near;
+  }
+  verify::Interference at(long steps) const {
+    verify::Interference out;
+    out.obstacle = move_;
+    out.beforeEnd = static_cast<double>(steps) * verify::kStep;
+    return out;
+  }
+
+private:
+  const DisturbedSides& sides_;
+  const std::size_t move_;
+};
+
+std::vector<verify::Difference> compareUnder(const verify::Interference& by, const DisturbedSides& sides,
+                                             const std::string& where) {
+  const std::optional<verify::Record> meant = sides.source(by);
+  if (!meant) return {};
+  verify::Record ran = sides.target(by);
+  ran.events.clear(); // the part is where the probe finds nothing
+  std::vector<verify::Difference> found = verify::compare(*meant, ran, sides.rules(*meant));
+  for (verify::Difference& one : found)
+    one.text = where + ": " + one.text;
+  return found;
+}
+
+std::vector<verify::Difference> compareObstructed(std::size_t move, const DisturbedSides& sides) {
+  verify::Interference half;
+  half.obstacle = move;
+  const std::string which = fmt::format("protected move {} meets something", move + 1);
+  std::vector<verify::Difference> found = compareUnder(half, sides, "where " + which);
+  const Turning turning(sides, move);
+  const long turns = found.empty() ? turning.find() : 0;
+  constexpr long kApart = 3; // steps: the last digits of two controls lie between
+  for (const long steps : {turns - kApart, turns + kApart})
+    if (found.empty() && turns > kApart)
+      found = compareUnder(turning.at(steps), sides,
+                           fmt::format("where {} {} mm before its end", which,
+                                       fixedText(static_cast<double>(steps) * verify::kStep, 3)));
+  return found;
+}
+
 } // namespace
+
+std::vector<verify::Difference> compareDisturbed(const verify::Record& source, const verify::Record& ran,
+                                                 const DisturbedSides& sides) {
+  std::vector<verify::Difference> found;
+  const auto each = [&](std::size_t one, std::size_t other, const auto& look) {
+    for (std::size_t i = 0; one == other && i < std::min(one, kMost) && found.empty(); ++i)
+      found = look(i);
+  };
+  each(source.searches, ran.searches, [&](std::size_t search) {
+    verify::Interference none;
+    none.missing = search;
+    return compareUnder(none, sides, fmt::format("where touch {} finds nothing", search + 1));
+  });
+  each(source.calls, ran.calls, [&](std::size_t call) {
+    verify::Interference none;
+    none.missedCall = call;
+    return compareUnder(none, sides, fmt::format("where measuring call {} finds nothing", call + 1));
+  });
+  each(source.protectedMoves, ran.protectedMoves,
+       [&](std::size_t move) { return compareObstructed(move, sides); });
+  return found;
+}
 
 std::vector<verify::Difference>
 compareMissed(const TargetCase& now, const verify::Record& ran,
               const std::function<verify::Record(const verify::Interference&)>& run,
               const std::function<verify::CompareRules(const verify::Record&)>& rules, bool exact) {
-  if (now.source == nullptr || now.questions == nullptr || now.source->searches != ran.searches) return {};
-  const auto compared = [&](const verify::Record& meant, const verify::Interference& by, std::string where) {
-    std::vector<verify::Difference> found = verify::compare(meant, run(by), rules(meant));
-    for (verify::Difference& one : found)
-      one.text = where + ": " + one.text;
-    return found;
-  };
-  for (std::size_t search = 0; search < std::min(ran.searches, kMost); ++search) {
-    verify::Interference none;
-    none.missing = search;
-    const SourceQuestions::Ran meant = now.questions->disturbed(none);
-    if (meant.answer != SourceQuestions::Answer::Runs) continue;
-    std::vector<verify::Difference> found =
-        compared(meant.record, none, fmt::format("where touch {} finds nothing", search + 1));
-    if (!found.empty()) return found;
-  }
-  if (!exact) return {};
+  if (now.source == nullptr || now.questions == nullptr) return {};
+  const DisturbedSides sides{[&](const verify::Interference& by) -> std::optional<verify::Record> {
+                               SourceQuestions::Ran meant = now.questions->disturbed(by);
+                               if (meant.answer != SourceQuestions::Answer::Runs) return std::nullopt;
+                               return std::move(meant.record);
+                             },
+                             run, rules};
+  std::vector<verify::Difference> found = compareDisturbed(*now.source, ran, sides);
+  if (!found.empty() || !exact || now.source->searches != ran.searches) return found;
   std::size_t search = 0;
   for (const verify::Measure& measure : now.source->measures) {
     if (!measure.aim || search >= kMost) continue;
@@ -109,10 +183,10 @@ compareMissed(const TargetCase& now, const verify::Record& ran,
     for (const long at : turns.found()) {
       const std::optional<verify::Record>& meant = turns.at(at);
       if (!meant) continue;
-      std::vector<verify::Difference> found =
-          compared(*meant, turns.placed(at),
-                   fmt::format("where touch {} finds its surface {} mm from its start", search,
-                               fixedText(static_cast<double>(at) * verify::kStep, 3)));
+      found = verify::compare(*meant, run(turns.placed(at)), rules(*meant));
+      for (verify::Difference& one : found)
+        one.text = fmt::format("where touch {} finds its surface {} mm from its start: {}", search,
+                               fixedText(static_cast<double>(at) * verify::kStep, 3), one.text);
       if (!found.empty()) return found;
     }
   }

@@ -27,6 +27,8 @@ namespace dotek::targets {
 
 // Of a position whose word is rounded, and of what is met from there: in steps of the word's last digit.
 inline constexpr double kRoundedWord = 0.6;
+// An increment of a word, where one control computes with eight digits and the other with fifteen; mm.
+inline constexpr double kOtherArithmetic = 0.0011;
 
 // What the source does with other values of the case at hand, in the same part: by it a translation that is
 // called with arguments is held to the contract of docs/convert.md.

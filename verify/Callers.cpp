@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <optional>
 #include <set>
+#include <utility>
 
 namespace dotek::verify {
 
@@ -89,7 +90,7 @@ std::vector<BrokenCaller> brokenCallers(const Control& control, bool shiftOfZ,
                                         const std::map<char, double>& starts) {
   std::vector<BrokenCaller> out;
   constexpr std::uint32_t kBeforeSystems = 530, kAfterSystems = 600;
-  constexpr double kShift = 3, kBeside = 0.02; // mm
+  constexpr double kBeside = 0.02; // mm
   // A code in force that the program can ask for.
   const auto inForce = [&](const CodeInfo* code, std::string alarm) {
     if (code == nullptr || !code->group) return;
@@ -147,15 +148,20 @@ std::vector<BrokenCaller> brokenCallers(const Control& control, bool shiftOfZ,
         caller.away = from(axis, by);
       }
   if (!asksForShift(control)) return out;
+  // Beyond 0.01 mm, to either side.
+  constexpr std::pair<std::string_view, double> kShifts[] = {{"3.", 3}, {"-0.012", -0.012}, {"0.012", 0.012}};
   const CodeInfo* shift = control.find(Function::LocalShift);
+  const std::string code = "G" + numberText(shift->tenths / 10.0);
   for (const char axis : {'X', 'Y', 'Z'}) {
     if (axis == 'Z' && !shiftOfZ) continue;
-    BrokenCaller caller;
-    caller.who = fmt::format("after G{} {}{}.", numberText(shift->tenths / 10.0), axis, kShift);
-    caller.alarm = "LOCAL SHIFT ACTIVE";
-    caller.blocks = fmt::format("G{}{}{}.\n", numberText(shift->tenths / 10.0), axis, kShift);
-    caller.away = from(axis, kShift);
-    out.push_back(std::move(caller));
+    for (const auto& [text, by] : kShifts) {
+      BrokenCaller caller;
+      caller.who = fmt::format("after {} {}{}", code, axis, text);
+      caller.alarm = "LOCAL SHIFT ACTIVE";
+      caller.blocks = fmt::format("{}{}{}\n", code, axis, text);
+      caller.away = from(axis, by);
+      out.push_back(std::move(caller));
+    }
   }
   return out;
 }
@@ -232,6 +238,45 @@ std::vector<OtherCaller> otherModes(const Control& control, const Entry& entry) 
     other.ofModes = true;
     other.who = fmt::format("under G{}", numberText(code->tenths / 10.0));
     other.entry.blocks += fmt::format("G{}\n", numberText(code->tenths / 10.0));
+  }
+  return out;
+}
+
+std::optional<Entry> withExternalOffset(const Control& control, const Entry& entry) {
+  const stdlib::SystemVariables& v = control.variables;
+  if (!v.externalX || v.axisStep == 0) return std::nullopt;
+  constexpr sim::Point3 kOffset{0.37, -0.23, 0.41};
+  Entry out = entry;
+  for (sim::Point3& zero : out.zeros)
+    zero = zero - kOffset;
+  // It comes into force where the start has been reached.
+  out.start = out.start + kOffset;
+  const double along[] = {kOffset.x, kOffset.y, kOffset.z};
+  for (int axis = 0; axis < 3; ++axis)
+    out.variables.emplace_back(static_cast<std::uint32_t>(*v.externalX + axis * v.axisStep), along[axis]);
+  return out;
+}
+
+std::vector<ModeInForce> modesInForce(const Control& source, const Control& target) {
+  std::vector<ModeInForce> out;
+  const auto text = [](const CodeInfo& code) { return "G" + numberText(code.tenths / 10.0); };
+  for (const Function function :
+       {Function::Incremental, Function::FeedPerRevolution, Function::PlaneZX, Function::PlaneYZ,
+        Function::Feed, Function::CutterCompLeft, Function::CannedCycle}) {
+    const CodeInfo *const one = source.find(function), *const other = target.find(function);
+    if (one == nullptr || other == nullptr) continue;
+    ModeInForce mode{"under " + text(*one), {}, {}};
+    // What would move otherwise is only read.
+    const bool readOnly = function == Function::CutterCompLeft || function == Function::CannedCycle;
+    if (readOnly && (!one->group || !other->group)) continue;
+    if (readOnly) {
+      mode.source.modal.emplace_back(static_cast<std::uint32_t>(*one->group), one->tenths);
+      mode.target.modal.emplace_back(static_cast<std::uint32_t>(*other->group), other->tenths);
+    } else {
+      mode.source.blocks = text(*one) + "\n";
+      mode.target.blocks = text(*other) + "\n";
+    }
+    out.push_back(std::move(mode));
   }
   return out;
 }

@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -48,6 +49,21 @@ std::vector<OtherCaller> otherCallers(const ir::Program& posted, const stdlib::C
 // Each with one mode in force that the source's own run does not begin with: the distance, the kind of feed,
 // the plane, the motion.
 std::vector<OtherCaller> otherModes(const stdlib::Control& control, const Entry& entry);
+// In the same place, and with all zeros where they are, an external offset is in force; nothing: programs of
+// the control cannot see one.
+std::optional<Entry> withExternalOffset(const stdlib::Control& control, const Entry& entry);
+// A mode that a caller of a program has in force, for Entry on the one and the other control.
+struct ModeInForce {
+  std::string who; // "under G91", as the first control has it
+  struct Side {
+    std::string blocks;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> modal;
+  };
+  Side source, target;
+};
+// Those that both controls have: of the distance, the kind of feed, the plane, the motion, and cutter
+// compensation and a canned cycle as far as a program asks for them.
+std::vector<ModeInForce> modesInForce(const stdlib::Control& source, const stdlib::Control& target);
 // Some block has a G code of this function.
 bool hasCode(const ir::Program& program, const stdlib::Control& control, stdlib::Function function);
 

@@ -220,10 +220,15 @@ private:
     return "";
   }
 
+  // A millionth of a feed is its last digits.
+  bool sameFeed(double one, double other) const {
+    constexpr double kDigits = 1e-6;
+    return std::abs(one - other) <= std::max(rules_.results, kDigits * std::abs(one));
+  }
+
   // Where the feed differs, too, it is why the pieces do: " at F2500".
   std::string feedOf(const Piece& piece, const Piece& other) const {
-    if (piece.kind != other.kind || !piece.feed || !other.feed ||
-        std::abs(*piece.feed - *other.feed) <= rules_.results)
+    if (piece.kind != other.kind || !piece.feed || !other.feed || sameFeed(*piece.feed, *other.feed))
       return "";
     return " at F" + numberText(*piece.feed);
   }
@@ -276,6 +281,7 @@ private:
         return;
       }
       compareState(pair_, a[i].with, b[i].with, "", a[i].range, b[i].range);
+      goesOn(a[i], b[i]);
       feed(a[i], b[i]);
       underModes(a[i], b[i]);
     }
@@ -293,12 +299,23 @@ private:
     }
   }
 
+  void goesOn(const Piece& a, const Piece& b) {
+    if (a.goesOn == b.goesOn) return;
+    const auto text = [](const Piece& piece) {
+      return piece.goesOn ? "raises no alarm" : "stops with an alarm";
+    };
+    add(Aspect::Path,
+        fmt::format("a protected move that {} where it meets something against one that {}", text(a),
+                    text(b)),
+        a.range, b.range);
+  }
+
   void feed(const Piece& a, const Piece& b) {
     const auto shown = [](const Piece& piece) {
       return piece.feed ? "F" + numberText(*piece.feed) : std::string("no feed");
     };
-    const bool same = a.feed && b.feed ? std::abs(*a.feed - *b.feed) <= rules_.results
-                                       : a.feed.has_value() == b.feed.has_value();
+    const bool same =
+        a.feed && b.feed ? sameFeed(*a.feed, *b.feed) : a.feed.has_value() == b.feed.has_value();
     if (!same) add(Aspect::State, shown(a) + " against " + shown(b), a.range, b.range);
   }
 

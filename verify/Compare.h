@@ -37,6 +37,7 @@ struct CompareRules {
   double tolerance = 1e-6; // mm; also of degrees and variables
   // Of results that the control has computed: offsets, variables. Not below `tolerance`.
   double results = 1e-6;
+  double angles = 0;   // degrees, of variables where an angle is found by two touches
   double relative = 0; // share of a variable's or a zero's value that counts as equal beside that
   // Whether a place of the target's program stems from a place of the source's. Nothing: not compared.
   std::function<bool(SourceRange source, SourceRange target)> samePlace;

@@ -138,9 +138,9 @@ private:
         const bool null = sim::isNull(value), otherNull = sim::isNull(other->second);
         const bool unknown = sim::isUnknown(value) || sim::isUnknown(other->second);
         if (unknown ? sim::isUnknown(value) && sim::isUnknown(other->second)
-                    : null == otherNull &&
-                          (null || std::abs(value - other->second) <=
-                                       std::max(rules_.results, rules_.relative * std::abs(value))))
+                    : null == otherNull && (null || std::abs(value - other->second) <=
+                                                        std::max({rules_.results, rules_.angles,
+                                                                  rules_.relative * std::abs(value)})))
           continue;
       }
       differ(number);

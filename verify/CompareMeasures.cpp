@@ -111,13 +111,38 @@ void nominal(const ComparedPair& pair, const Measure& a, const Measure& b) {
   }
 }
 
-// How a measure is made; of another vendor's macro how far it searches, where the source says so, and how
-// far it keeps beside a feature, where both say so.
+// Given to a macro whose source has none of it: a limit that stops it, what it raises no alarm for, what it
+// sets or prints besides. A limit of the source a translation may look at by itself.
+bool changesWork(stdlib::ArgumentRole role, double value) {
+  using stdlib::ArgumentRole;
+  switch (role) {
+  case ArgumentRole::FlagOnly: return value == 1;
+  case ArgumentRole::Tool:
+  case ArgumentRole::SpareTool:
+  case ArgumentRole::Experience:
+  case ArgumentRole::SizeTolerance:
+  case ArgumentRole::PositionTolerance:
+  case ArgumentRole::AngleTolerance:
+  case ArgumentRole::UpperLimit:
+  case ArgumentRole::NullBand:
+  case ArgumentRole::Feedback:
+  case ArgumentRole::Print: return true;
+  default: return false;
+  }
+}
+
+// How a measure is made; of another vendor's macro how far it searches, where the source says so, how far it
+// keeps beside a feature, where both say so, and what it alone is told to do.
 void options(const ComparedPair& pair, const Measure& a, const Measure& b) {
   std::set<stdlib::ArgumentRole> roles;
+  const auto ofTargetAlone = [&](stdlib::ArgumentRole role) {
+    const auto other = b.options.find(role);
+    return b.program != 0 && other != b.options.end() && !a.options.contains(role) &&
+           changesWork(role, other->second);
+  };
   for (const Measure* one : {&a, &b})
     for (const auto& [role, value] : one->options)
-      if (pair.rules.sameAlarmNumbers || role == stdlib::ArgumentRole::Overtravel ||
+      if (pair.rules.sameAlarmNumbers || role == stdlib::ArgumentRole::Overtravel || ofTargetAlone(role) ||
           (role == stdlib::ArgumentRole::Clearance && a.options.contains(role) && b.options.contains(role)))
         roles.insert(role);
   for (const stdlib::ArgumentRole role : roles) {

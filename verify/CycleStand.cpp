@@ -47,7 +47,8 @@ std::set<std::pair<FileId, std::size_t>> mayMissIn(const ir::Cycle& cycle) {
 } // namespace
 
 Record CycleStand::run(const ir::Cycle& cycle, sim::CycleInputs inputs, sim::World& world, const Entry& entry,
-                       const std::set<std::uint32_t>& stores, bool keepMoves, bool movePath) const {
+                       const std::set<std::uint32_t>& stores, bool keepMoves, bool movePath,
+                       const Interference& interference) const {
   inputs.take(world.probe());
   const double length = inputs.tipLength;
   sim::Machine machine = machineAt(entry, length);
@@ -57,6 +58,7 @@ Record CycleStand::run(const ir::Cycle& cycle, sim::CycleInputs inputs, sim::Wor
   Recorder recorder(machine, world, {}, length);
   recorder.assumeProbe(entry.probeOn ? Switch::On : Switch::Off);
   if (movePath) recorder.datumsMovePath();
+  recorder.interfere(interference);
   recorder.begin([&run] { return run.place(); }, keepMoves);
   machine.setSkipSignal(&recorder);
   machine.setWatcher(&recorder);

@@ -18,7 +18,8 @@ public:
   // modal codes do not matter, as no control executes anything. `stores`: common variables whose end values
   // count. `movePath`: Stand::Way::MovePath.
   Record run(const ir::Cycle& cycle, sim::CycleInputs inputs, sim::World& world, const Entry& entry,
-             const std::set<std::uint32_t>& stores, bool keepMoves = false, bool movePath = false) const;
+             const std::set<std::uint32_t>& stores, bool keepMoves = false, bool movePath = false,
+             const Interference& interference = {}) const;
   // The surfaces that its touches expect, in the order of the run, where each is found at its place; of a run
   // that does not come to its end those before it, and `ending` says so.
   struct Rehearsal {

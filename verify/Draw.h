@@ -40,6 +40,7 @@ struct Case {
   std::map<std::string, double> hosts;  // tool_radius, clearance, retract, start_x, start_y, start_z, ...
   std::uint32_t system = 54;            // active at entry: 54 to 59
   std::uint32_t toolOffset = 1;         // that of the probe, in force at entry
+  std::map<std::uint32_t, double> variables; // common ones that a posted program reads and nobody writes
   PartError error;
   bool edge = false;        // edge and illegal values
   bool callers = false;     // it is also called by those who break what the translation demands

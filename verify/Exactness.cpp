@@ -9,6 +9,7 @@
 namespace dotek::verify {
 namespace {
 
+constexpr double kDegrees = 57.3; // of a radian
 constexpr double kTurned =
     0.006; // a flat face leans at most so much from the touch that expects it: 0.3 degrees
 
@@ -35,6 +36,16 @@ double spreadOf(const Measure& measure) {
   return std::clamp(std::max({ofX, ofY, 2 * ofR}) / std::abs(determinant), 1.0, kMost);
 }
 
+// How far apart two touches of one face are; 0: it is no such measure.
+double baseOf(const Measure& measure) {
+  constexpr double kSameWay = 1e-9;
+  if (measure.nominal.size() != 2) return 0;
+  const Touch &one = measure.nominal[0], &other = measure.nominal[1];
+  if ((one.direction - other.direction).length() > kSameWay) return 0;
+  const sim::Point3 way = other.point - one.point;
+  return (way - one.direction * way.dot(one.direction)).length();
+}
+
 } // namespace
 
 // A move that the stem or the body of the probe stops ends at a place that is known to the safe side alone,
@@ -45,6 +56,9 @@ CompareRules asExactAs(const Record& source, CompareRules rules) {
            event.first.outcome == sim::Outcome::BodyCollision;
   });
   if (stopped) rules.results = std::max(rules.results, sim::kCollisionMargin);
+  for (const Measure& measure : source.measures)
+    if (const double base = baseOf(measure); base > 0)
+      rules.angles = std::max(rules.angles, rules.results / base * kDegrees);
   // Another macro computes a circle from other places of the same control's grid.
   if (!rules.sameAlarmNumbers) {
     double spread = 1;

@@ -13,10 +13,15 @@ namespace dotek::verify {
 // mm; what a control that counts in eight digits compares exactly.
 inline constexpr double kStep = 0.001;
 
-// Each by its number in the run, from 0. Of bare skip moves: those within a call are the macro's own.
+// Each by its number in the run, from 0. Searches are bare skip moves: those within a call are the macro's
+// own.
 struct Interference {
-  std::optional<std::size_t> missing;  // this search finds nothing
-  std::optional<std::size_t> obstacle; // this protected move is stopped half way
+  std::optional<std::size_t> missing;    // this search finds nothing
+  std::optional<std::size_t> missedCall; // no touch of this measuring call finds anything
+  // This protected move, bare or of a macro whose probe is on, is stopped: `beforeEnd` mm from its end, or
+  // half way where that is 0.
+  std::optional<std::size_t> obstacle;
+  double beforeEnd = 0;
   std::optional<std::size_t> touching; // this question finds contact
   // Every search ends on the control's step, and this one where it has gone so many mm. One that finds
   // nothing else goes to its end.

@@ -42,8 +42,8 @@ std::vector<Piece> straight(const std::vector<Piece>& pieces, bool kinds, double
     if (near(piece.from, piece.to, tolerance)) continue;
     if (!out.empty()) {
       Piece& last = out.back();
-      const bool alike =
-          !kinds || (last.kind == piece.kind && last.with == piece.with && last.feed == piece.feed);
+      const bool alike = !kinds || (last.kind == piece.kind && last.with == piece.with &&
+                                    last.feed == piece.feed && last.goesOn == piece.goesOn);
       const bool joined = near(last.to, piece.from, tolerance);
       if (alike && joined && between(last.from, last.to, piece.to, tolerance)) {
         last.to = piece.to;

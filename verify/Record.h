@@ -51,6 +51,7 @@ struct Piece {
   // looked at.
   std::array<std::uint32_t, 3> modes = {};
   WorkFrame frame = {}; // where it begins
+  bool goesOn = false;  // of a macro that is told to raise no alarm where it meets something
 };
 
 // Where a surface is expected, or was found. In X and Y the ball's centre is one radius before it, in Z
@@ -176,13 +177,15 @@ struct Record {
   std::map<std::uint32_t, sim::Machine::ToolOffset> tools; // entries of the tool table that were changed
   std::optional<std::uint32_t> tool;                       // that T has named last; nothing: that at entry
   std::map<std::uint32_t, double> stores; // variables that the program itself writes; kNull is a value
-  std::string printed;                    // by DPRNT and BPRNT, bytes
+  // Of the variables that are watched (Stand::watchStores) those that it leaves with another value.
+  std::map<std::uint32_t, double> strays;
+  std::string printed; // by DPRNT and BPRNT, bytes
   sim::Point3 start, end;
   Surroundings before, after; // what is on at entry and at the end
   bool pathMoved = false;     // by a datum (Stand::Way::MovePath)
-  // Bare skip moves of a length that ran, those that look for a surface and those that are to meet nothing,
-  // and questions whether the probe is in contact.
-  std::size_t searches = 0, protectedMoves = 0, guards = 0;
+  // Skip moves of a length that ran: bare ones that look for a surface, bare ones and macros that are to meet
+  // nothing; calls that measure; and questions whether the probe is in contact.
+  std::size_t searches = 0, protectedMoves = 0, calls = 0, guards = 0;
   // What had come before the first thing after what was asked for (Interference.h): pieces and marks;
   // nothing: it did not come to that.
   std::optional<std::pair<std::size_t, std::size_t>> disturbed;

@@ -125,6 +125,9 @@ void Recorder::begin(std::function<SourceRange()> place, bool keepMoves) {
   record_.feedBefore = machine_.feed();
   tools_ = toolTable(machine_);
   tool_ = machine_.tool();
+  if (watchedStores_ != nullptr)
+    for (const std::uint32_t number : *watchedStores_)
+      storedBefore_.emplace(number, machine_.common(number));
   for (std::uint32_t group = 0; group < record_.modalBefore.size(); ++group)
     record_.modalBefore[group] = machine_.modalCode(group);
 }
@@ -275,6 +278,9 @@ void Recorder::callBegins(std::uint32_t program, std::span<const double> locals)
   call_.moves = intent == Intent::ProtectedMove;
   for (std::uint32_t number = 1; call_.moves && number < locals.size(); ++number)
     if (!sim::isNull(locals[number]) && !sim::isUnknown(locals[number])) call_.given[number] = locals[number];
+  if (const stdlib::MacroArgument* flag =
+          signature == nullptr || !call_.moves ? nullptr : signature->find(stdlib::ArgumentRole::FlagOnly))
+    call_.goesOn = locals[stdlib::localOf(flag->letter)] == 1;
   if (const stdlib::MacroArgument* feed =
           signature == nullptr ? nullptr : signature->find(stdlib::ArgumentRole::Feed)) {
     const double given = locals[stdlib::localOf(feed->letter)];
@@ -400,7 +406,7 @@ void Recorder::endCall() {
       record_.idle.push_back(
           {call_.program, record_.pieces.size(), call_.feed, std::move(call_.given), call_.range});
     record_.pieces.push_back({sim::PathKind::Protected, call_.start, end, call_.with, call_.range, call_.feed,
-                              call_.modes, call_.frame});
+                              call_.modes, call_.frame, call_.goesOn});
   }
   call_ = {};
 }
@@ -510,6 +516,13 @@ Record Recorder::finish(const std::set<std::uint32_t>& stores) {
     const double value = machine_.common(number);
     if (!sim::isFresh(value)) record_.stores.emplace(number, value);
   }
+  const auto same = [](double one, double other) {
+    const auto unset = [](double value) { return sim::isFresh(value) || sim::isNull(value); };
+    return one == other || (unset(one) && unset(other)) || (sim::isUnknown(one) && sim::isUnknown(other));
+  };
+  for (const auto& [number, before] : storedBefore_)
+    if (const double value = machine_.common(number); !same(before, value))
+      record_.strays.emplace(number, value);
   return std::move(record_);
 }
 

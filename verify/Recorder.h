@@ -70,6 +70,8 @@ public:
   // has no other system to set.
   void datumsMovePath() { datumsMovePath_ = true; }
   void interfere(const Interference& interference) { interference_ = interference; }
+  // Before begin(): variables for Record::strays. Outlive it.
+  void watchStores(const std::set<std::uint32_t>& numbers) { watchedStores_ = &numbers; }
 
   // After the run. `stores`: common variables whose end values count.
   Record finish(const std::set<std::uint32_t>& stores);
@@ -94,7 +96,9 @@ private:
   void movePath(const Measure& measure);
   void noteDatums(Measure& measure) const;
   void noteSignal(const sim::ProbeEvent& event);
-  void disturb(std::size_t pieces); // how many belong to it and are still to come
+  void disturb(std::size_t pieces);       // how many belong to it and are still to come
+  double obstacleAt(double length) const; // as a share of the path
+  bool interferesInCall(double length, std::optional<double>& share);
   void takeEvents();
   void noteSystem(const stdlib::MacroSignature& signature, std::span<const double> locals);
   void noteOptions(const stdlib::MacroSignature& signature, std::span<const double> locals,
@@ -128,6 +132,8 @@ private:
   std::vector<sim::Machine::ToolOffset> tools_; // at entry
   std::vector<sim::Position> extended_;         // zeros of G54.1 Pn at entry
   std::uint32_t tool_ = 0;                      // that T had named before
+  const std::set<std::uint32_t>* watchedStores_ = nullptr;
+  std::map<std::uint32_t, double> storedBefore_; // of these, at entry
   // A call that counts as one thing, with what it calls itself.
   struct OpenCall {
     std::uint32_t depth = 0; // 0: none
@@ -141,6 +147,8 @@ private:
     std::array<sim::Position, 6> zeros;    // of G54 to G59, of one that measures
     std::optional<double> feed;            // an argument
     std::map<std::uint32_t, double> given; // arguments by local
+    bool goesOn = false;                   // Piece::goesOn
+    std::optional<std::size_t> number;     // among the protected moves, or the calls that measure
     std::array<std::uint32_t, 3> modes{};
     WorkFrame frame;
     std::size_t moved = 0;            // touches after which the path was moved (touchedApart)

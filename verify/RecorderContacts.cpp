@@ -61,12 +61,29 @@ std::optional<double> Recorder::contact(const sim::SkipMove& move) {
     const bool disturbed = (positions_ ? interference_.obstacle : interference_.missing) == number;
     if (disturbed) {
       disturb(1);
-      return positions_ ? std::optional(0.5) : std::nullopt;
+      return positions_ ? std::optional(obstacleAt(length)) : std::nullopt;
     }
   }
+  std::optional<double> disturbed;
+  if (length > 0 && call_.depth > 0 && interferesInCall(length, disturbed)) return disturbed;
   std::optional<double> share = world_.contact(longer);
   if (share && length > 0) share = std::min(1.0, *share * (length + kTouchSlack) / length);
   return search && interference_.placed ? placedContact(move, length, *search, share) : share;
+}
+
+double Recorder::obstacleAt(double length) const {
+  return interference_.beforeEnd > 0 ? std::max(0.0, 1 - interference_.beforeEnd / length) : 0.5;
+}
+
+// `share`: where the signal comes; nothing: it does not.
+bool Recorder::interferesInCall(double length, std::optional<double>& share) {
+  if (!call_.moves && !call_.measures) return false;
+  if (!call_.number) call_.number = (call_.moves ? record_.protectedMoves : record_.calls)++;
+  if (call_.moves ? interference_.obstacle != call_.number || !world_.on()
+                  : interference_.missedCall != call_.number)
+    return false;
+  if (call_.moves) share = obstacleAt(length);
+  return true;
 }
 
 std::optional<double> Recorder::placedContact(const sim::SkipMove& move, double length, std::size_t search,

@@ -24,6 +24,29 @@ std::array<sim::Point3, 6> standZeros() {
   return out;
 }
 
+namespace {
+
+// What has to be set before the macros of a set are called.
+template <class Give> void eachPreset(const stdlib::MacroSet& set, double ballRadius, const Give& give) {
+  const stdlib::ProbingFacts& facts = set.probing;
+  if (facts.feedVariable) give(*facts.feedVariable, kMacroFeed);
+  if (set.callerValues.empty()) return;
+  for (const auto& radius : {facts.radiusX, facts.radiusY})
+    if (radius) give(*radius, ballRadius);
+  for (const auto& [number, value] : set.callerValues)
+    give(number, value);
+}
+
+} // namespace
+
+std::optional<double> presetOf(const stdlib::MacroSet& set, std::uint32_t number, double ballRadius) {
+  std::optional<double> out;
+  eachPreset(set, ballRadius, [&](std::uint32_t one, double value) {
+    if (one == number) out = value;
+  });
+  return out;
+}
+
 Stand::Stand(const stdlib::Control& control, std::vector<const stdlib::MacroSet*> sets, const Limits& limits,
              const sim::Dialect& dialect)
     : sets_(std::move(sets)), limits_(limits), fresh_(control, dialect) {}
@@ -48,15 +71,8 @@ bool Stand::prepare(sim::Machine& machine, const Entry& entry, double ballRadius
   const std::uint32_t own = entry.toolOffset >= 1 && entry.toolOffset <= last ? entry.toolOffset : 1;
   for (std::uint32_t tool = 1; tool <= last; ++tool)
     machine.setToolLength(tool, length + kToolStep * (static_cast<double>(tool) - static_cast<double>(own)));
-  for (const stdlib::MacroSet* set : sets_) {
-    const stdlib::ProbingFacts& facts = set->probing;
-    if (facts.feedVariable) machine.preset(*facts.feedVariable, kMacroFeed);
-    if (set->callerValues.empty()) continue;
-    for (const auto& radius : {facts.radiusX, facts.radiusY})
-      if (radius) machine.preset(*radius, ballRadius);
-    for (const auto& [number, value] : set->callerValues)
-      machine.preset(number, value);
-  }
+  for (const stdlib::MacroSet* set : sets_)
+    eachPreset(*set, ballRadius, [&](std::uint32_t number, double value) { machine.preset(number, value); });
   std::string text = fmt::format("G21G17G40G49G80G90G94G{}\nG0X{:.6f}Y{:.6f}\nG43H{}Z{:.6f}\n", entry.system,
                                  entry.start.x, entry.start.y, own, entry.start.z);
   if (entry.otherOffset) {
@@ -110,6 +126,7 @@ Record Stand::run(const sim::Bytecode& code, sim::World& world, const Entry& ent
   if (way == Way::MovePath) recorder.datumsMovePath();
   recorder.interfere(interference);
   recorder.watchOnly(&watching_);
+  recorder.watchStores(watchedStores_);
   recorder.begin(run, way == Way::KeepMoves);
   machine.setSkipSignal(&recorder);
   machine.setWatcher(&recorder);

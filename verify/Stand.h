@@ -26,6 +26,9 @@ inline constexpr double kToolStep = 0.01;
 // Zeros of G54 to G59 in coordinates of the machine: all different, so that a mixed-up system shows.
 std::array<sim::Point3, 6> standZeros();
 
+// What a stand gives a variable of the macros of a set, for a ball of this radius; nothing: no value.
+std::optional<double> presetOf(const stdlib::MacroSet& set, std::uint32_t number, double ballRadius);
+
 // What holds before the program's first block, beside what is in force at the start.
 struct Entry {
   sim::Point3 start; // of the stylus's lowest point, system `system`
@@ -61,6 +64,8 @@ public:
              const Interference& interference = {}) const;
   // Of the code that is to run: Recorder::watchOnly.
   void watchOnly(sim::BlockSet blocks) { watching_ = std::move(blocks); }
+  // Common variables that Record::strays reports.
+  void watchStores(std::set<std::uint32_t> numbers) { watchedStores_ = std::move(numbers); }
   // Takes the trace of the runs to come (sim/machine/Trace.h), without the state before the program. nullptr:
   // nobody.
   void setTrace(sim::Trace* trace) { trace_ = trace; }
@@ -72,6 +77,7 @@ private:
   const Limits& limits_;
   sim::Trace* trace_ = nullptr;
   sim::BlockSet watching_;
+  std::set<std::uint32_t> watchedStores_;
   const sim::Machine fresh_;
   // Of the last run: what is assigned for the next keeps its memory. So a stand is used by one thread.
   mutable std::optional<sim::Machine> machine_;

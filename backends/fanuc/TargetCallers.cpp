@@ -73,6 +73,7 @@ void FanucVerification::callOtherwise(const TargetCase& now, const verify::Entry
               out);
   }
   callFromOthers(now, entry, out);
+  callWithExternal(now, entry, out);
   add(compareMissed(
           now, ran,
           [&](const verify::Interference& none) {
@@ -136,6 +137,25 @@ std::map<char, double> FanucVerification::fixedStarts() const {
     if (const auto at = from_.inputs.hosts.find(std::string("start_") + axis); at != from_.inputs.hosts.end())
       out.emplace(static_cast<char>(std::toupper(axis)), at->second);
   return out;
+}
+
+void FanucVerification::callWithExternal(const TargetCase& now, const verify::Entry& entry, TargetRun& out) {
+  if (now.source == nullptr) return;
+  const std::optional<verify::Entry> one = verify::withExternalOffset(*from_.inputs.sourceControl, now.entry);
+  const std::optional<verify::Entry> other = verify::withExternalOffset(control_, entry);
+  if (!one || !other) return;
+  const SourceQuestions::Ran meant = now.questions->from(*one);
+  SourceRange at;
+  if (meant.answer != SourceQuestions::Answer::Runs || !verify::whyNoEvidence(meant.record, at).empty())
+    return;
+  const std::string who = "with an external offset in force";
+  std::vector<verify::Difference> found =
+      verify::compare(meant.record, runText(now, *other, nullptr), rulesFor(now, meant.record));
+  if (found.empty()) return;
+  for (verify::Difference& difference : found)
+    difference.text = fmt::format("called {}: {}", who, difference.text);
+  noteCaller(who);
+  add(std::move(found), out);
 }
 
 bool FanucVerification::comparesExactly() const {

@@ -42,6 +42,21 @@ bool FanucText::readMacros(const stdlib::MacroSet& set, const stdlib::Control& c
   return text == nullptr || read(set.name, std::string(text->text), control, session);
 }
 
+std::map<std::uint32_t, std::uint32_t> FanucText::storesOfTranslation() const {
+  constexpr double kFirst = 100, kEnd = 1000;
+  std::map<std::uint32_t, std::uint32_t> out;
+  for (const ir::ProgramFile& file : files_)
+    for (const ir::Program& program : file.programs)
+      for (const ir::ProgramStatement& statement : program.body) {
+        const auto* store = std::get_if<ir::Store>(&statement.node);
+        const double* number = store != nullptr && store->number ? ir::constantValue(store->number) : nullptr;
+        const std::uint32_t at = line(statement.origin.range());
+        if (number != nullptr && *number >= kFirst && *number < kEnd && at != 0)
+          out.emplace(static_cast<std::uint32_t>(*number), at);
+      }
+  return out;
+}
+
 void FanucText::compile(const stdlib::Control& control) {
   std::vector<const ir::Program*> programs;
   for (const ir::ProgramFile& file : files_)

@@ -9,7 +9,9 @@
 #include "stdlib/MacroSet.h"
 #include "targets/Subject.h"
 
+#include <cstdint>
 #include <deque>
+#include <map>
 #include <string>
 
 namespace dotek::targets {
@@ -33,6 +35,8 @@ public:
 
   const sim::Bytecode& code() const { return code_; }
   const sim::BlockSet& safeMoves() const { return safe_; } // of compile()
+  // Common variables that the translation writes by their numbers, and in which line first.
+  std::map<std::uint32_t, std::uint32_t> storesOfTranslation() const;
   // Of the translation, from 1; 0: the place lies elsewhere.
   std::uint32_t line(SourceRange range) const {
     return range.file == translation_ ? sources_.line(range) : 0;

@@ -59,6 +59,9 @@ private:
   void callFromOthers(const TargetCase& now, const verify::Entry& entry, TargetRun& out);
   // Where convert has the program ask for its start, by axis.
   std::map<char, double> fixedStarts() const;
+  void callWithExternal(const TargetCase& now, const verify::Entry& entry, TargetRun& out);
+  // Common variables that nothing of the source writes, and no contract has it write.
+  void compareStrays(const TargetCase& now, const verify::Record& record, TargetRun& out) const;
   bool comparesExactly() const;
   bool loadsTool(const TargetCase& now) const;
   const verify::DrawField* fieldOf(const std::string& name) const;
@@ -100,6 +103,7 @@ private:
   const Limits limits_ = limitsOfRun(from_.session.limits());
   verify::Stand stand_;
   FanucText text_;
+  std::map<std::uint32_t, std::uint32_t> stored_; // common variables, by number the line
   // For a picture: what ran last, and the caller of the first difference.
   std::optional<verify::Entry> ran_;
   std::optional<std::pair<std::string, verify::Entry>> differing_;

@@ -75,6 +75,11 @@ bool FanucVerification::prepare() {
       (set_ != nullptr && !text_.readMacros(*set_, control_, session)))
     return false;
   text_.compile(control_);
+  stored_ = text_.storesOfTranslation();
+  std::set<std::uint32_t> numbers;
+  for (const auto& [number, line] : stored_)
+    numbers.insert(number);
+  stand_.watchStores(std::move(numbers));
   return true;
 }
 
@@ -211,6 +216,10 @@ verify::CompareRules FanucVerification::rulesFor(const TargetCase& now, const ve
   // After a write of the system that is active, what follows is as exactly as the control computes.
   const bool computed = from_.plan.computesPlaces || writesActive(source, now.entry);
   rules.tolerance = computed ? rules.results : from_.options.tolerance;
+  // Where one control counts in eight digits and the other in fifteen, a computed word may be rounded the
+  // other way.
+  if (from_.plan.computesPlaces && control_.arithmetic != from_.inputs.sourceControl->arithmetic)
+    rules.tolerance = rules.results = std::max(rules.results, kOtherArithmetic);
   // Positions that the cycle computes go to the control rounded to its least increment, and contacts on
   // round surfaces follow.
   if (from_.plan.cycleFile) {
@@ -260,7 +269,22 @@ void FanucVerification::compareRecords(const TargetCase& now, const verify::Reco
     out.undecided = true;
   else
     add(verify::compare(source, record, rules), out);
+  if (!out.undecided && out.differences.empty()) compareStrays(now, record, out);
   if (!out.undecided && out.differences.empty()) compareReturn(record, &source, out);
+}
+
+void FanucVerification::compareStrays(const TargetCase& now, const verify::Record& record,
+                                      TargetRun& out) const {
+  for (const auto& [number, value] : record.strays) {
+    if (now.stores.contains(number)) continue;
+    out.differsAt(verify::Aspect::Variable,
+                  fmt::format("#{}: the source does not write it, the translation leaves {}", number,
+                              sim::isNull(value)      ? "it null"
+                              : sim::isUnknown(value) ? "a value that is not known"
+                                                      : "it at " + numberText(value)),
+                  stored_.at(number));
+    return;
+  }
 }
 
 std::unique_ptr<Verification> fanucVerification(const VerificationSource& source) {

@@ -1,4 +1,4 @@
-#include "backends/fanuc/TargetVerifyPrograms.h"
+#include "backends/fanuc/TargetProgramPlayed.h"
 
 #include "backends/fanuc/ProgramCalls.h"
 #include "project/Hosts.h"
@@ -22,27 +22,15 @@ constexpr std::uint32_t kAttempts = 24;       // to find values with which the p
 constexpr std::uint32_t kChecked = 400;       // of them, that a check of the program rejects
 constexpr std::uint32_t kEndless = 3;         // of them, that come to the limit of steps
 constexpr std::uint32_t kMostSteps = 200'000; // of one run: --limit sim-steps may make it less
-constexpr std::uint64_t kMostCalled = 9999;   // by M98 on every control
-// Where one control computes with eight digits and the other with fifteen: an increment of a word, and what
-// eight digits leave of a value.
-constexpr double kOtherArithmetic = 0.0011, kEightDigits = 1e-6;
+constexpr std::uint64_t kCallerCases = 8;   // in which the probe meets something else, and callers have modes
+constexpr std::uint64_t kMostCalled = 9999; // by M98 on every control
+constexpr double kEightDigits = 1e-6;       // what they leave of a value
 
 double toStep(double value) {
   return std::round(value * 1000) / 1000;
 }
 
 } // namespace
-
-struct ProgramRunner::Played {
-  verify::Case drawn;
-  std::optional<sim::Part> part;
-  verify::Record record;
-  std::string why; // the case is undecided; "" where it may agree
-  SourceRange whyAt;
-  bool rehearsed = false;     // nothing is measured: a run without a part, which meets nothing
-  std::uint32_t rejected = 0; // proposals that the check at `whyAt` rejected
-  std::string remedy;         // flags that give what it reads
-};
 
 ProgramRunner::ProgramRunner(const VerifyOptions& options, const VerifyPlan& plan)
     : options_(options), plan_(plan), session_(options.common), sourceLimits_(options.common.limits),
@@ -255,6 +243,7 @@ verify::Case ProgramRunner::propose(std::uint64_t index, const Tries& tries) con
     out.values[std::to_string(variable.number)] =
         toStep(out.hosts[axis[random.below(3)]] + random.between(-30, 30));
   }
+  out.callers = index < kCallerCases || options_.replay;
   out.system = 54 + static_cast<std::uint32_t>(randomOf("system").below(6));
   if (options_.activeSystem) out.system = *options_.activeSystem;
   if (options_.partError) {
@@ -330,8 +319,14 @@ verify::Case ProgramRunner::edge(std::uint64_t index) {
 }
 
 verify::Record ProgramRunner::runSide(const Side& side, const verify::Case& drawn, sim::World& world,
-                                      verify::Stand::Way way) const {
+                                      verify::Stand::Way way, const Beside& beside) const {
   verify::Entry entry = entryFor(drawn, assumesProbe());
+  if (beside.mode != nullptr) {
+    const bool target = side.code == &translation_.code();
+    const verify::ModeInForce::Side& mode = target ? beside.mode->target : beside.mode->source;
+    entry.blocks = mode.blocks;
+    entry.modal = mode.modal;
+  }
   for (const auto& [name, value] : drawn.values)
     entry.variables.emplace_back(static_cast<std::uint32_t>(std::stoul(name)), value);
   // Most programs of one's own look for a surface beyond the place where it is expected.
@@ -348,7 +343,7 @@ verify::Record ProgramRunner::runSide(const Side& side, const verify::Case& draw
   if (stopsSpindle_) entry.spindle = left ? 2 : 1;
   if (stopsCoolant_) entry.coolant = mist ? sim::Machine::Coolant::Mist : sim::Machine::Coolant::Flood;
   verify::Record record =
-      side.stand->run(*side.code, world, entry, stores_, meaning ? &*meaning : nullptr, way);
+      side.stand->run(*side.code, world, entry, stores_, meaning ? &*meaning : nullptr, way, beside.by);
   // What macros do inside is their own business.
   std::erase_if(record.early, [&](const verify::EarlyUse& use) {
     return side.code == &translation_.code() ? translation_.line(use.range) == 0 : use.range.file != file_;
@@ -362,7 +357,7 @@ std::unique_ptr<ProgramRunner::Played> ProgramRunner::play(verify::Case drawn, b
   out->drawn = std::move(drawn);
   const sim::Probe probe = probeFor(plan_, out->drawn);
   const sim::Point3 zero = entryFor(out->drawn, false).zeros[out->drawn.system - 54];
-  const Side source{&*sourceControl_, sourceSet_, &sourceCode_, sourceStand_.get()};
+  const Side source = sourceSide();
   if (plan_.part) {
     out->part = plan_.part;
   } else {
@@ -400,8 +395,7 @@ std::unique_ptr<ProgramRunner::Played> ProgramRunner::play(verify::Case drawn, b
 
 verify::Record ProgramRunner::runTarget(const Played& played) const {
   sim::World world(*played.part, probeFor(plan_, played.drawn), limits());
-  const Side side{&*targetControl_, targetSet_, &translation_.code(), targetStand_.get()};
-  return runSide(side, played.drawn, world,
+  return runSide(targetSide(), played.drawn, world,
                  played.rehearsed ? verify::Stand::Way::Rehearse : verify::Stand::Way::Run);
 }
 
@@ -431,12 +425,15 @@ std::vector<verify::Difference> ProgramRunner::differences(const Played& played,
                                                            const verify::Record& target) {
   const verify::CompareRules loose = rules();
   std::vector<verify::Difference> out = verify::compare(played.record, target, loose);
+  if (out.empty())
+    if (std::optional<verify::Difference> one = compareReturn(played.record, target))
+      return {std::move(*one)};
   if (out.empty() || !sourceAsTarget_) return out;
   // Whether the digits alone make the difference.
   sim::World world(*played.part, probeFor(plan_, played.drawn), limits());
-  const Side source{&*sourceAsTarget_, sourceSet_, &sourceAsTargetCode_, sourceAsTargetStand_.get()};
-  const verify::Record again = runSide(
-      source, played.drawn, world, played.rehearsed ? verify::Stand::Way::Rehearse : verify::Stand::Way::Run);
+  const verify::Record again =
+      runSide(sourceAsTargetSide(), played.drawn, world,
+              played.rehearsed ? verify::Stand::Way::Rehearse : verify::Stand::Way::Run);
   if (!verify::compare(again, target, loose).empty()) return out;
   for (verify::Difference& one : out)
     one.text += "; with the arithmetic of " + targetControl_->name + " the source does the same";
@@ -458,7 +455,10 @@ CaseResult ProgramRunner::run(const verify::Case& drawn) {
     result.verdict = CaseVerdict::NoProgram;
     return result;
   }
-  for (const verify::Difference& one : differences(*played, runTarget(*played))) {
+  const verify::Record target = runTarget(*played);
+  std::vector<verify::Difference> found = differences(*played, target);
+  if (found.empty() && played->drawn.callers) found = compareBeside(*played, target);
+  for (const verify::Difference& one : found) {
     CaseFinding finding;
     finding.aspect = one.aspect;
     finding.text = one.text;
@@ -480,11 +480,9 @@ std::optional<CasePictures> ProgramRunner::pictures(const verify::Case& drawn) {
   const std::unique_ptr<Played> played = play(drawn, false);
   const sim::Probe probe = probeFor(plan_, drawn);
   sim::World world(*played->part, probe);
-  const Side source{&*sourceControl_, sourceSet_, &sourceCode_, sourceStand_.get()};
-  const verify::Record record = runSide(source, drawn, world, verify::Stand::Way::KeepMoves);
-  const Side target{&*targetControl_, targetSet_, &translation_.code(), targetStand_.get()};
+  const verify::Record record = runSide(sourceSide(), drawn, world, verify::Stand::Way::KeepMoves);
   ShownRun shown;
-  shown.record = runSide(target, drawn, world, verify::Stand::Way::KeepMoves);
+  shown.record = runSide(targetSide(), drawn, world, verify::Stand::Way::KeepMoves);
   return picturesOf(record, shown, *played->part, probe, !plan_.part && record.measures.empty());
 }
 

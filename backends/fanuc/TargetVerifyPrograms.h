@@ -8,6 +8,7 @@
 #include "stdlib/MacroSet.h"
 #include "targets/Stage.h"
 #include "targets/Subject.h"
+#include "verify/Callers.h"
 #include "verify/Rehearsal.h"
 #include "verify/Stand.h"
 #include "verify/VariableFlow.h"
@@ -55,7 +56,6 @@ private:
     std::uint32_t callee = 0; // O number
     std::optional<ir::ProgramFile> source;
   };
-  // What a case comes to on the source's side.
   struct Played;
 
   bool addCaller();
@@ -67,8 +67,33 @@ private:
   bool otherValuesMayDo(const verify::Record& record) const;
   bool lacksProgram(const verify::Record& record) const; // it ended at a call of a program that is not there
   std::unique_ptr<Played> play(verify::Case drawn, bool drawError);
+  // What the probe meets besides, and what the caller has in force; nullptr: the usual modes.
+  struct Beside {
+    verify::Interference by;
+    const verify::ModeInForce* mode = nullptr;
+  };
   verify::Record runSide(const Side& side, const verify::Case& drawn, sim::World& world,
-                         verify::Stand::Way way) const;
+                         verify::Stand::Way way, const Beside& beside) const;
+  verify::Record runSide(const Side& side, const verify::Case& drawn, sim::World& world,
+                         verify::Stand::Way way) const {
+    return runSide(side, drawn, world, way, {});
+  }
+  // On the part of a case.
+  verify::Record runBeside(const Side& side, const Played& played, const Beside& beside) const;
+  Side sourceSide() const { return {&*sourceControl_, sourceSet_, &sourceCode_, sourceStand_.get()}; }
+  Side targetSide() const { return {&*targetControl_, targetSet_, &translation_.code(), targetStand_.get()}; }
+  Side sourceAsTargetSide() const {
+    return {&*sourceAsTarget_, sourceSet_, &sourceAsTargetCode_, sourceAsTargetStand_.get()};
+  }
+  // One of the two goes back to its caller, the other ends.
+  std::optional<verify::Difference> compareReturn(const verify::Record& source,
+                                                  const verify::Record& target) const;
+  // Where the probe meets something else, and under other modes of the caller.
+  std::vector<verify::Difference> compareBeside(const Played& played, const verify::Record& target) const;
+  std::vector<verify::Difference> compareDisturbed(const Side& source, const Played& played,
+                                                   const verify::Record& target) const;
+  std::vector<verify::Difference> compareUnder(const verify::ModeInForce& mode, const Side& source,
+                                               const Played& played) const;
   verify::Record runTarget(const Played& played) const;
   verify::CompareRules rules() const;
   std::vector<verify::Difference> differences(const Played& played, const verify::Record& target);

@@ -261,12 +261,18 @@ private:
       if (!why.empty() && out.differences.empty())
         out.differs(verify::Aspect::Ending, fmt::format("{} {}: {}", what, number + 1, why), lineOf(at));
     };
-    for (std::size_t i = 0; i < ran.searches; ++i)
-      attempt({i, {}, {}}, MacroAlarm::ProbeFail, "no surface at search", i);
-    for (std::size_t i = 0; i < ran.protectedMoves; ++i)
-      attempt({{}, i, {}}, MacroAlarm::PathObstructed, "an obstacle in protected move", i);
-    for (std::size_t i = 0; i < ran.guards; ++i)
-      attempt({{}, {}, i}, MacroAlarm::PathObstructed, "contact before chain", i);
+    const auto eachOf = [&](std::size_t count, std::optional<std::size_t> verify::Interference::*which,
+                            MacroAlarm alarm, std::string_view what) {
+      for (std::size_t i = 0; i < count; ++i) {
+        verify::Interference one;
+        one.*which = i;
+        attempt(one, alarm, what, i);
+      }
+    };
+    eachOf(ran.searches, &verify::Interference::missing, MacroAlarm::ProbeFail, "no surface at search");
+    eachOf(ran.protectedMoves, &verify::Interference::obstacle, MacroAlarm::PathObstructed,
+           "an obstacle in protected move");
+    eachOf(ran.guards, &verify::Interference::touching, MacroAlarm::PathObstructed, "contact before chain");
     if (ran.guards == 0 && ran.searches + ran.protectedMoves > 0 && out.differences.empty())
       out.differs(verify::Aspect::Ending, "nothing asks for contact before the first probe move");
   }

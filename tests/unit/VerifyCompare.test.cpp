@@ -68,6 +68,29 @@ const std::string kTouch = kOn + "G65P9811X30.S2\n";
 
 } // namespace
 
+TEST_CASE("verify: a feed differs by more than a millionth") {
+  CHECK(differing("G1X10.F250000.\n", "G1X10.F249999.9\n").empty());
+  CHECK(differing("G1X10.F250000.\n", "G1X10.F249999.\n") == Aspects{Aspect::State});
+  CHECK(differing("G1X10.F250.\n", "G1X10.F250.01\n") == Aspects{Aspect::State});
+}
+
+TEST_CASE("verify: an angle of a face is as exact as its touches are apart") {
+  verify::Measure face;
+  face.nominal = {{{10, 0, 0}, {1, 0, 0}}, {{10, 5, 0}, {1, 0, 0}}};
+  verify::Record source, target;
+  source.measures = target.measures = {face};
+  source.stores[601] = -0.292997;
+  target.stores[601] = -0.29289;
+  verify::CompareRules rules;
+  rules.results = 5e-5;
+  CHECK(verify::compare(source, target, rules).empty());
+  target.stores[601] = -0.2915;
+  CHECK(verify::compare(source, target, rules).size() == 1);
+  source.measures[0].nominal[1].point.y = target.measures[0].nominal[1].point.y = 80;
+  target.stores[601] = -0.29289;
+  CHECK(verify::compare(source, target, rules).size() == 1);
+}
+
 TEST_CASE("verify: the same program does the same") {
   CHECK(differing(kTouch, kTouch).empty());
   CHECK(differing("G0X10.\nG0X20.\n", "G0X20.\n").empty());                   // in one line

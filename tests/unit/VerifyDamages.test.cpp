@@ -1,0 +1,186 @@
+// Translations that were damaged where no drawn case goes: what guards a move, what nobody wrote, what the
+// caller has in force.
+#include "tests/GoldenRunner.h"
+#include "tests/Process.h"
+
+#include <doctest/doctest.h>
+
+using namespace dotek::tests;
+
+namespace {
+
+// A post with one branch for the shipped cycle, in macros of Renishaw.
+std::string postWith(const std::string& touch) {
+  return "#1 = '####.##;0'\nFORMAT(OpFieldData#,1)\n\nprobe:\nIF CycleType?('surface-x')\n"
+         " SeqC SpinOff EOL\n SeqC CoolOff EOL\n SeqC ' G65 P9832' EOL\n"
+         " SeqC ' G65 P9810' ZCP1 ' F3000.' EOL\n SeqC ' G65 P9810 Z'OpFieldData#('Z')' F500.' EOL\n" +
+         touch + " SeqC ' G65 P9810' ZCP1 ' F3000.' EOL\n SeqC ' G65 P9833' EOL\nEND\nRETURN\n";
+}
+
+const std::string kTouch = " SeqC ' G65 P9811 X[#5001+'OpFieldData#('X')']' EOL\n";
+
+std::string cycle() {
+  return (root() / "examples/surface-x").string();
+}
+
+struct Damage {
+  const char* edit; // of sed
+  const char* said;
+};
+
+// `flags` of convert and verify; the whole translation agrees, each damage shows.
+void checkDamages(const ProcessFolder& folder, const std::string& source, const std::string& flags,
+                  const std::string& suffix, const std::vector<Damage>& damages,
+                  const std::string& ofVerify = "") {
+  const std::string whole = "whole." + suffix, less = "less." + suffix;
+  const ShellResult written = folder.run("dotek convert " + source + flags + " -o " + whole);
+  REQUIRE_MESSAGE(written.status == 0, written.out << written.err);
+  const std::string verify = "dotek verify " + source + flags + ofVerify + " --cases 40 --translation ";
+  const ShellResult good = folder.run(verify + whole);
+  CHECK_MESSAGE(good.status == 0, good.out << good.err);
+  for (const Damage& one : damages) {
+    CAPTURE(one.edit);
+    const ShellResult edited = folder.run(std::string("sed '") + one.edit + "' " + whole + " >" + less +
+                                          "; cmp -s " + whole + " " + less + " && echo same");
+    REQUIRE(edited.out.empty());
+    const ShellResult result = folder.run(verify + less);
+    CHECK_MESSAGE(result.status == 1, result.out << result.err);
+    CHECK_MESSAGE((result.out + result.err).find(one.said) != std::string::npos, result.out << result.err);
+  }
+}
+
+} // namespace
+
+TEST_CASE("verify: a protected move that raises no alarm any more is a difference") {
+  const ProcessFolder folder;
+  folder.write("own.txt", postWith(kTouch));
+  checkDamages(folder, cycle() + " --prog own.txt", " --to fanuc --control fanuc-31i-b", "nc",
+               {{"s/P9810 Z#26 F500./& M1./", "against one that raises no alarm"}});
+}
+
+TEST_CASE(
+    "verify: what meets something, or finds nothing, stops a translation to another set as its source") {
+  const ProcessFolder folder;
+  checkDamages(folder, cycle() + " --prog " + (root() / "examples/post.txt").string(),
+               " --to fanuc --control fanuc-0i-md --probe-macros dotek", "nc",
+               {{"s/P8810 Z#26.*/& M1./", "a protected move to"}, {"s/P8811.*/& M1./", "flag-only"}});
+  checkDamages(folder, cycle() + " --prog " + (root() / "examples/post.txt").string(),
+               " --to fanuc --control fanuc-31i-b --probe-macros inspection-plus", "nc",
+               {{"s/P9811.*/& H1./", "size-tolerance"}, {"s/P9810 Z#26.*/& M1./", "raises no alarm"}});
+}
+
+TEST_CASE("verify: a variable of the shop that a translation forgets is a difference") {
+  const ProcessFolder folder;
+  folder.write("own.txt", postWith(kTouch + " SeqC '#610=#135+#540' EOL\n"));
+  const std::string flags = " --to fanuc --control fanuc-31i-b";
+  const std::string source = cycle() + " --prog own.txt";
+  checkDamages(
+      folder, source, flags, "nc",
+      {{"s/#610=.*/#610=#135/", "#610 is"}, {"s/+#540/-#540/", "#610 is"}, {"s/#540/#541/", "#610 is"}});
+  const ShellResult given =
+      folder.run("dotek verify " + source + flags + " --var 540=3 --cases 40 --translation less.nc");
+  CHECK_MESSAGE(given.err.find("--var 540=3") != std::string::npos, given.out << given.err);
+}
+
+TEST_CASE("verify: a variable that only the translation writes is a difference") {
+  const ProcessFolder folder;
+  folder.write("own.txt", postWith(kTouch));
+  checkDamages(folder, cycle() + " --prog own.txt", " --to fanuc --control fanuc-31i-b", "nc",
+               {{"s/^G65 P9832.*/&\\n#720=1./", "#720: the source does not write it"}});
+}
+
+TEST_CASE("verify: the guard against a local shift asks for what the contract says") {
+  const ProcessFolder folder;
+  folder.write("own.txt", postWith(kTouch));
+  checkDamages(folder, cycle() + " --prog own.txt", " --to fanuc --control fanuc-31i-b", "nc",
+               {{"/LOCAL SHIFT/s/GT 0.01/GT 0.1/", "after G52 X-0.012"},
+                {"/LOCAL SHIFT/s/GT 0.01/GT 2.9/", "after G52"},
+                {"/LOCAL SHIFT/s/-#5201//", "with an external offset in force"}});
+}
+
+TEST_CASE("verify: programs are called under other modes, and meet what is in their way") {
+  const ProcessFolder folder;
+  // It keeps the distance, comes down watching, touches, and goes back as it came.
+  folder.write("low.nc", "%\nO9300(LOW)\n#30=#4003\nG90G94G17G40G80\n#5=#5003\nG31Z[#5-4.]F500.\n"
+                         "IF[ABS[#5063-#5083-[#5-4.]] GT 0.05]THEN #3000=3(IN THE WAY)\n"
+                         "G31X[#5001+9.]F100.\n#620=#5061\nG1X[#5061-3.]F500.\nG0Z#5\nG#30\nM99\n%\n");
+  checkDamages(folder, "low.nc", " --to fanuc --from-control fanuc-31i-b --control fanuc-31i-b", "nc",
+               {{"s/^M99/M30/", "in place of going back to its caller"},
+                {"s/G90 *G94/G94/", "called under G91"},
+                {"s/G90 *G94/G90/", "called under G95"},
+                {"s/G40 *G80/G80/", "called under G41"},
+                {"s/^G#30//", "called under G91"},
+                {"s/#30=#4003/#30=#4001/", "called under"},
+                {"s/^IF.*WAY.*//", "against a measuring move"},
+                {"s/GT 0*\\.05/GT .5/", "where protected move 1 meets something"}},
+               " --assume probe-on");
+}
+
+TEST_CASE(
+    "verify: an edited cycle has the defaults and titles of the dialog, and the clearance of the call") {
+  const ProcessFolder folder;
+  const std::string prog = (root() / "examples/post.txt").string();
+  checkDamages(folder, cycle() + " --prog " + prog, " --to cycle", "cycle",
+               {{"0,/length = [0-9-]*/s//length = 77/", "default of `"}});
+}
+
+TEST_CASE(
+    "verify: a clearance beside a boss, and titles that are exchanged, are differences of an edited cycle") {
+  const ProcessFolder folder;
+  folder.write("knob/DefineData.txt", "SIZE = 30\nDEEP = -8\nAWAY = 5\n");
+  folder.write("knob/CycleData.dlg",
+               "dialog \"Knob\", 60, 60, 470, 230\nlabel 15, 20, 80, 24, \"Size of the knob [mm]\"\n"
+               "input 110, 20, 80, 24, SIZE, SIZE\nlabel 15, 55, 80, 24, \"Height [mm]\"\n"
+               "input 110, 55, 80, 24, DEEP, DEEP\nlabel 15, 90, 80, 24, \"Way beside it [mm]\"\n"
+               "input 110, 90, 80, 24, AWAY, AWAY\nok 220, 180, 90, 28\ncancel 330, 180, 90, 28\n");
+  folder.write("knob/CycleData.mac",
+               "callback_returncode = 0\n:again\ndialog \"CycleData.dlg\"\nif SIZE > 2 then goto sized\n"
+               "message \"Too small\"\ngoto again\n:sized\nif AWAY > 3 then goto beside\nmessage \"Too "
+               "near\"\ngoto again\n"
+               ":beside\nif DEEP < 0 then goto done\nmessage \"Too high\"\ngoto again\n:done\n");
+  folder.write("knob/ToolPath.mac",
+               "callback_returncode = 0\no = callback_op\nget_op_data o, TOOL_NUM, t\nget_tool_data t, "
+               "MTOOL_RADIUS, b\n"
+               "get_custom_drill_cycle_data retract_plane, p\nr = SIZE/2+b\nw = SIZE/2+b+AWAY\n"
+               "add_custom_drill_cycle_path feed_x, w\nadd_custom_drill_cycle_path feed_z, DEEP-p\n"
+               "add_custom_drill_cycle_path feed_x, r\nadd_custom_drill_cycle_path feed_x, w\n"
+               "add_custom_drill_cycle_path feed_z, 0\nadd_custom_drill_cycle_path feed_x, -w\n"
+               "add_custom_drill_cycle_path feed_z, DEEP-p\nadd_custom_drill_cycle_path feed_x, -r\n"
+               "add_custom_drill_cycle_path feed_x, -w\nadd_custom_drill_cycle_path feed_z, 0\n"
+               "add_custom_drill_cycle_path feed, 0, w, 0\nadd_custom_drill_cycle_path feed_z, DEEP-p\n"
+               "add_custom_drill_cycle_path feed_y, r\nadd_custom_drill_cycle_path feed_y, w\n"
+               "add_custom_drill_cycle_path feed_z, 0\nadd_custom_drill_cycle_path feed_y, -w\n"
+               "add_custom_drill_cycle_path feed_z, DEEP-p\nadd_custom_drill_cycle_path feed_y, -r\n"
+               "add_custom_drill_cycle_path feed_y, -w\nadd_custom_drill_cycle_path feed_z, 0\n"
+               "add_custom_drill_cycle_path feed_y, 0\n");
+  folder.write(
+      "knob.txt",
+      "#1 = '####.##;0'\nFORMAT(OpFieldData#,1)\n\nprobe:\nIF CycleType?('knob')\n"
+      " SeqC SpinOff EOL\n SeqC CoolOff EOL\n SeqC ' G65 P9832' EOL\n"
+      " SeqC ' G65 P9810' ZCP1 ' F3000.' EOL\n"
+      " SeqC ' G65 P9814 D'OpFieldData#('SIZE')' Z'OpFieldData#('DEEP')' R'OpFieldData#('AWAY')' S1' EOL\n"
+      " SeqC ' G65 P9833' EOL\nEND\nRETURN\n");
+  checkDamages(
+      folder, "knob --prog knob.txt", " --to cycle", "cycle",
+      {{"s/clearance = away/& + 1 mm/", "clearance"}, {"s/\"Height\"/\"Way beside it\"/", "title of `"}});
+}
+
+TEST_CASE("verify: the replay of a difference keeps planes that are one") {
+  const ProcessFolder folder;
+  REQUIRE(folder.run("cp -r " + cycle() + " face && sed -i 's/feed_z, R-plane/feed_z, 0/' face/ToolPath.mac")
+              .status == 0);
+  REQUIRE(folder
+              .run("sed \"s/ Z'OpFieldData#('R')'/' ZCP1 '/\" " + (root() / "examples/post.txt").string() +
+                   " >face.txt")
+              .status == 0);
+  const std::string run = "dotek verify face --cycle surface-x --prog face.txt --cases 60 2>&1 | grep -A9 "
+                          "'end position differs' | grep -m1 ";
+  const ShellResult told = folder.run(run + "'replay: '");
+  REQUIRE_MESSAGE(told.status == 0, told.out << told.err);
+  const auto valueOf = [&](const std::string& name) {
+    const std::size_t at = told.out.find("--value " + name + "=");
+    return at == std::string::npos ? "" : told.out.substr(at + 9 + name.size(), 6);
+  };
+  CHECK(valueOf("clearance") == valueOf("retract"));
+  CHECK(!valueOf("clearance").empty());
+}
