@@ -141,9 +141,7 @@ private:
           add(block);
         return;
       }
-      const auto kind =
-          word->kind == compost::WordKind::Numeric ? ProgPiece::Kind::Number : ProgPiece::Kind::Command;
-      line_.pieces.push_back({kind, word->range, nullptr, word, "", 0});
+      line_.pieces.push_back({pieceKind(*word, project_), word->range, nullptr, word, "", 0});
     }
   }
 
@@ -213,7 +211,7 @@ BlockDeeds deedsOf(const ProgBlock& block, const Project& project) {
     out.outside =
         out.measures && z && meaning.intent != Intent::Surface && meaning.intent != Intent::StockAllowance;
     out.movesZ = z && meaning.set != nullptr && meaning.intent == Intent::ProtectedMove;
-    out.stopsSpindle = out.stopsSpindle || (meaning.set != nullptr && meaning.intent == Intent::ProbeOn);
+    out.switchesProbeOn = meaning.set != nullptr && meaning.intent == Intent::ProbeOn;
     return out;
   }
   const bool call = findWord(words, 'P') != nullptr;

@@ -8,11 +8,12 @@ namespace dotek::lint {
 
 // What one printed block does. Of a block below an IF it may do so.
 struct BlockDeeds {
-  bool measures = false;     // a measuring call, or G31
-  bool outside = false;      // its measurement goes down and comes up again by itself: a web, a boss
-  bool movesZ = false;       // a move with Z, plain or protected, or a return home; no measurement
-  bool stopsSpindle = false; // M5, an orientation, a tool change, or a macro that switches the probe on
-  bool stopsCoolant = false; // M9
+  bool measures = false;        // a measuring call, or G31
+  bool outside = false;         // its measurement goes down and comes up again by itself: a web, a boss
+  bool movesZ = false;          // a move with Z, plain or protected, or a return home; no measurement
+  bool stopsSpindle = false;    // M5, an orientation, a tool change
+  bool stopsCoolant = false;    // M9
+  bool switchesProbeOn = false; // by a macro
   // G90 and G91 of the block, the last one counts.
   bool absolute = false, incremental = false;
 };

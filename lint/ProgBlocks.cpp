@@ -60,13 +60,9 @@ private:
     if (word.kind == compost::WordKind::Boolean) return;
     const stdlib::ComPostKeyword* keyword = project_.compostKeywords.find(word.name);
     if (keyword != nullptr && keyword->prints == stdlib::Prints::No) return;
-    ProgPiece piece{ProgPiece::Kind::Command, word.range, nullptr, &word, "", 0};
-    if (word.kind == compost::WordKind::Numeric) {
-      piece.kind = ProgPiece::Kind::Number;
-      if (word.name == "OpFieldData" && word.arguments.size() == 1) piece.field = word.arguments[0].text;
-    } else if (keyword != nullptr && keyword->kind == stdlib::KeywordKind::Sequence) {
-      piece.kind = ProgPiece::Kind::Sequence;
-    }
+    ProgPiece piece{pieceKind(word, project_), word.range, nullptr, &word, "", 0};
+    if (piece.kind == ProgPiece::Kind::Number && word.name == "OpFieldData" && word.arguments.size() == 1)
+      piece.field = word.arguments[0].text;
     add(std::move(piece));
   }
 
@@ -175,6 +171,14 @@ std::string ProgBlock::shape() const {
 
 std::string ProgBlock::text() const {
   return printed(*this, true);
+}
+
+ProgPiece::Kind pieceKind(const compost::Word& word, const Project& project) {
+  if (word.kind == compost::WordKind::Numeric) return ProgPiece::Kind::Number;
+  const stdlib::ComPostKeyword* keyword = project.compostKeywords.find(word.name);
+  const bool number = (keyword != nullptr && keyword->kind == stdlib::KeywordKind::Sequence) ||
+                      (project.form != nullptr && project.form->sequences.contains(word.name));
+  return number ? ProgPiece::Kind::Sequence : ProgPiece::Kind::Command;
 }
 
 std::vector<ProgWord> wordsOf(const ProgBlock& block, const stdlib::Form* form) {

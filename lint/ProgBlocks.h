@@ -41,6 +41,9 @@ struct ProgBlock {
   std::string text() const;
 };
 
+// What a command or a numeric word prints. The form says which words are block numbers, beside those that the
+// language is known to have.
+ProgPiece::Kind pieceKind(const compost::Word& word, const Project& project);
 // Words of the block; the hole of a command is the address that the form prints for it. A macro statement has
 // none. Points into the block.
 std::vector<ProgWord> wordsOf(const ProgBlock& block, const stdlib::Form* form);

@@ -18,8 +18,7 @@ void collect(const compost::Condition& condition, std::vector<const compost::Wor
   }
 }
 
-// One letter lost, added or swapped with its neighbour, or another case or mark between the words. Another
-// letter in the place of one makes another name: `probe.x` and `probe.y`.
+// One letter lost, added or swapped with its neighbour, or another case or mark between the words.
 bool misspelt(const std::string& a, const std::string& b) {
   const auto letters = [](const std::string& text) {
     std::string out;
@@ -49,6 +48,42 @@ bool misspeltInList(const std::string& a, const std::string& b) {
   if (shorter.size() >= kLeastStem && longer.starts_with(shorter)) return true;
   const std::size_t most = shorter.size() / 4;
   return most > 0 && nameDistance(one, other, most) <= most;
+}
+
+// Words of names that are close on purpose differ in one of these where they end: axes, sides, directions.
+bool tellsApart(char a, char b) {
+  constexpr std::string_view kFamilies[] = {"xyz", "uvw", "ijk", "abcdef", "lr", "pmn", "ie", "io", "hl"};
+  return std::any_of(std::begin(kFamilies), std::end(kFamilies), [&](std::string_view family) {
+    return family.find(a) != std::string_view::npos && family.find(b) != std::string_view::npos;
+  });
+}
+
+// One letter in the place of another within a word: `OV-Costula` for `OV-Costola`. A digit, a word of one or
+// two letters, or the last letter of a word where it is a member of a family makes another name: `probe.x`
+// and `probe.y`, `FaceX` and `FaceY`, `bore1` and `bore2`.
+bool otherLetter(const std::string& a, const std::string& b) {
+  constexpr std::size_t kLeastWord = 3;
+  if (a.size() != b.size()) return false;
+  const auto fold = [](char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); };
+  const auto is = [](int (*kind)(int), char c) { return kind(static_cast<unsigned char>(c)) != 0; };
+  std::size_t at = a.size();
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (fold(a[i]) == fold(b[i])) continue;
+    if (at != a.size()) return false;
+    at = i;
+  }
+  if (at == a.size() || !is(std::isalpha, a[at]) || !is(std::isalpha, b[at])) return false;
+  // Words end at a mark, at a digit, and before a capital letter that follows a small one.
+  const auto joins = [&](std::size_t left) {
+    const bool letters = is(std::isalpha, b[left]) && is(std::isalpha, b[left + 1]);
+    return letters && !(is(std::islower, b[left]) && is(std::isupper, b[left + 1]));
+  };
+  std::size_t begin = at, end = at + 1;
+  while (begin > 0 && joins(begin - 1))
+    --begin;
+  while (end < b.size() && joins(end - 1))
+    ++end;
+  return end - begin >= kLeastWord && !(at + 1 == end && tellsApart(fold(a[at]), fold(b[at])));
 }
 
 void check(const Project& project, Report& report) {
@@ -84,6 +119,11 @@ void check(const Project& project, Report& report) {
       // A name that several routines test is the name of a cycle, wherever its folder is.
       const bool elsewhere = testing.at(id.text).size() > 1;
       if (folders.contains(id.text)) continue;
+      // All others that the Prog tests are linted with it: this one is the name of none.
+      const bool alone =
+          testing.size() > 2 && std::all_of(testing.begin(), testing.end(), [&](const auto& one) {
+            return one.first == id.text || folders.contains(one.first);
+          });
       const bool listsFolders = std::any_of(beside.begin(), beside.end(),
                                             [&](const std::string& name) { return folders.contains(name); });
       for (const std::string& folder : folders) {
@@ -96,10 +136,11 @@ void check(const Project& project, Report& report) {
         const bool same = one == other;
         // Routines that keep the same list: this one lacks the folder and has what is nearly its name.
         const bool inItsPlace = !elsewhere && beside.size() > 1 && !beside.contains(folder);
-        if ((!same && !inItsPlace &&
-             !compost::printingRoutines(*prog, project.compostKeywords, folder).empty()) ||
-            !(misspelt(id.text, folder) || (inItsPlace && listsFolders && misspeltInList(id.text, folder))))
-          continue;
+        const bool free = same || inItsPlace || alone ||
+                          compost::printingRoutines(*prog, project.compostKeywords, folder).empty();
+        const bool near = misspelt(id.text, folder) || (listsFolders && otherLetter(id.text, folder)) ||
+                          (inItsPlace && listsFolders && misspeltInList(id.text, folder));
+        if (!free || !near) continue;
         report.at(id.range,
                   "no folder has the name `{}`; did you mean `{}`? the branch is taken for no operation",
                   id.text, folder);

@@ -12,18 +12,22 @@ struct Begin {
   const BranchSteps::Step* measured = nullptr;
   const BranchSteps::Step* coolant = nullptr; // is switched off before it
   bool stopped = false;                       // the spindle is
+  bool oriented = false;                      // a macro may have done it: O9832 does in many packs
 };
 
 std::optional<Begin> beginOf(const BranchSteps& branch) {
-  Begin begin{&branch, nullptr, nullptr, false};
-  begin.stopped = std::any_of(branch.before.begin(), branch.before.end(),
-                              [](const BlockDeeds& deeds) { return deeds.stopsSpindle; });
+  Begin begin{&branch, nullptr, nullptr, false, false};
+  for (const BlockDeeds& deeds : branch.before) {
+    begin.stopped = begin.stopped || deeds.stopsSpindle;
+    begin.oriented = begin.oriented || deeds.switchesProbeOn;
+  }
   for (const BranchSteps::Step& step : branch.steps) {
     if (step.deeds.measures) {
       begin.measured = &step;
       return begin;
     }
     begin.stopped = begin.stopped || step.deeds.stopsSpindle;
+    begin.oriented = begin.oriented || step.deeds.switchesProbeOn;
     if (step.deeds.stopsCoolant) begin.coolant = &step;
   }
   return std::nullopt;
@@ -47,7 +51,7 @@ void check(const Project& project, Report& report) {
     }
     // Who switches the coolant off for the probe means the spindle as well.
     const bool asOthers = other != nullptr && with >= without;
-    if (!asOthers && begin.coolant == nullptr) continue;
+    if (!asOthers && (begin.coolant == nullptr || begin.oriented)) continue;
     const SourceRange at = asOthers ? begin.measured->range : begin.coolant->range;
     if (!told.insert({at.file, at.begin}).second) continue;
     if (asOthers)
