@@ -52,7 +52,7 @@ bool misspeltInList(const std::string& a, const std::string& b) {
 
 // Words of names that are close on purpose differ in one of these where they end: axes, sides, directions.
 bool tellsApart(char a, char b) {
-  constexpr std::string_view kFamilies[] = {"xyz", "uvw", "ijk", "abcdef", "lr", "pmn", "ie", "io", "hl"};
+  constexpr std::string_view kFamilies[] = {"xyz", "uvw", "ijk", "abcd", "lr", "pm", "pn", "ie", "io", "hl"};
   return std::any_of(std::begin(kFamilies), std::end(kFamilies), [&](std::string_view family) {
     return family.find(a) != std::string_view::npos && family.find(b) != std::string_view::npos;
   });
