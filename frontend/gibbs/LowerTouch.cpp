@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace dotek::frontend::gibbs {
 namespace {
@@ -205,6 +206,21 @@ void TouchNotes::note(WalkState& state, Leg& leg) {
   keep(notes.others, state.facts);
 }
 
+// The vector from the move's end to a point that does not depend on the ball is as long as its radius, and
+// along no axis.
+bool TouchNotes::endsTheRadiusBefore(const std::array<std::optional<Value>, 3>& target) const {
+  if (radius_ == kNoVariable) return false;
+  constexpr double kSame = 1e-6;
+  double square = 0;
+  int axes = 0;
+  for (const std::optional<Value>& one : target) {
+    const double factor = one ? factorOf(Symbol::variable(radius_), *one) : 0;
+    square += factor * factor;
+    axes += std::abs(factor) > kSame ? 1 : 0;
+  }
+  return axes > 1 && std::abs(std::sqrt(square) - 1) < kSame;
+}
+
 void TouchNotes::move(WalkState& state, std::size_t step, const std::array<std::optional<Value>, 3>& target) {
   const auto& move = std::get<FlatMove>(flat_->steps[step].step);
   MoveNotes& notes = notes_[step];
@@ -214,6 +230,13 @@ void TouchNotes::move(WalkState& state, std::size_t step, const std::array<std::
   const std::vector<ir::Axis> changed = changedAxes(state, target);
   const bool idle = changed.empty();
   const std::size_t axis = axisOf(written, changed);
+  if (const auto out = idle ? std::nullopt : std::exchange(state.track.out, std::nullopt)) {
+    const bool back = std::all_of(std::begin(ir::kAxes), std::end(ir::kAxes), [&](ir::Axis each) {
+      const std::size_t i = ir::indexOf(each);
+      return isZero(state.facts, difference(target[i] ? target[i] : state.track.at[i], out->begin[i]));
+    });
+    if (back) oblique_.insert(out->step);
+  }
   bool consumed = false;
   const std::optional<std::size_t> previous =
       state.track.last ? std::optional(state.track.last->step) : std::nullopt;
@@ -236,13 +259,8 @@ void TouchNotes::move(WalkState& state, std::size_t step, const std::array<std::
     return;
   }
   if (axis == kNowhere) {
-    if (radius_ != kNoVariable && target[0] && target[1]) {
-      const Symbol radius = Symbol::variable(radius_);
-      const double x = factorOf(radius, *target[0]), y = factorOf(radius, *target[1]);
-      constexpr double kSame = 1e-6;
-      if (std::abs(x) > kSame && std::abs(y) > kSame && std::abs(std::hypot(x, y) - 1) < kSame)
-        oblique_.insert(step);
-    }
+    if (endsTheRadiusBefore(target)) oblique_.insert(step);
+    state.track.out = Out{step, state.track.at};
     notes.oneAxis = false;
     notes.moves = true;
     notes.alwaysIdle = false;
@@ -311,8 +329,8 @@ void ReversalTrace::move(WalkState& state, std::size_t step,
         return known != nullptr && *known == 0;
       }))
     oblique_.insert(*out_);
-  out_.reset();
-  if (changed == std::vector<ir::Axis>{ir::Axis::X, ir::Axis::Y}) {
+  if (!changed.empty()) out_.reset();
+  if (changed.size() > 1) {
     out_ = step;
     outBegin_ = track.at;
   }

@@ -63,7 +63,8 @@ public:
   // Moves that end the radius before a contact at or beyond their begin, where no move does so for the other
   // side: nothing says that a contact at the begin is none.
   std::set<std::size_t> oneSided() const;
-  // Moves along X and Y at once that end the radius before a point.
+  // Moves along several axes at once that end the radius before a point, or after which the path goes
+  // straight back.
   const std::set<std::size_t>& oblique() const { return oblique_; }
   // Moves that go back from the touch.
   std::set<std::size_t> returnsOf(std::size_t touch) const;
@@ -71,6 +72,7 @@ public:
 private:
   void judge(WalkState& state, const std::optional<Value>& next, std::size_t step, bool& consumed);
   void note(WalkState& state, Leg& leg);
+  bool endsTheRadiusBefore(const std::array<std::optional<Value>, 3>& target) const;
   std::size_t placeOf(const Track& track, std::size_t axis, const Value& target);
   void stand(Track& track);
   void turn(Track& track, const Leg& leg, bool rises);
@@ -97,7 +99,7 @@ public:
   const std::set<std::size_t>& reversals() const { return reversals_; }
   // Moves along Z that lead up before the path goes down again.
   const std::set<std::size_t>& rises() const { return rises_; }
-  // Moves along X and Y at once after which the path goes straight back.
+  // Moves along several axes at once after which the path goes straight back.
   const std::set<std::size_t>& oblique() const { return oblique_; }
 
 private:
@@ -106,7 +108,7 @@ private:
   std::set<std::size_t> reversals_;
   std::set<std::size_t> rises_;
   std::set<std::size_t> oblique_;
-  std::optional<std::size_t> out_; // the last move, where it is along X and Y at once
+  std::optional<std::size_t> out_; // the last move, where it is along several axes at once
   std::array<std::optional<Value>, 3> outBegin_;
 };
 

@@ -56,11 +56,18 @@ struct Turn {
   auto operator<=>(const Turn&) const = default;
 };
 
+// A move along several axes at once.
+struct Out {
+  std::size_t step = 0;
+  std::array<std::optional<Value>, 3> begin;
+};
+
 // Where the probe is; X and Y from the entry, Z from the retract plane.
 struct Track {
   std::array<std::optional<Value>, 3> at; // nothing: not known
   std::optional<Leg> before;              // `last` is its follower, along the same axis
   std::optional<Leg> last;
+  std::optional<Out> out;      // the last move, where it goes along several axes
   std::size_t run = 0;         // step of the first move of the moves along one axis
   std::set<std::size_t> stood; // numbers of the places where it has stood
   std::set<Turn> turns;

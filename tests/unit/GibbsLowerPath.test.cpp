@@ -128,6 +128,14 @@ TEST_CASE("gibbs lower: touches at an angle") {
   // The radius before a point, and on to the next.
   CHECK(path("degrees\nto 0, 0, Z-plane\nto (a-r)*cos(30), (a-r)*sin(30), Z-plane\nto 0, 1, Z-plane\n"
              "z h-plane\n") == refused + "(a-r)*cos(30), (a-r)*sin(30), Z-plane");
+  // The same with Z: whatever the defaults are, and through what is computed.
+  CHECK(path("to 0, 0, Z-plane\nto a, 0, b-plane\nto 0, 0, Z-plane\nz h-plane\n") == refused + "a, 0, b-plane");
+  CHECK(path("to 0, 0, Z-plane\nto 0, a-r, Z-3-plane\nto 0, 0, Z-plane\nz h-plane\n") ==
+        refused + "0, a-r, Z-3-plane");
+  CHECK(path("degrees\nto 0, 0, Z-plane\nto (a-r)*cos(30), 0, b+r*sin(30)-plane\nto 0, 1, h-plane\n")
+            .starts_with(refused + "(a-r)*cos(30), 0, b+r*sin(30)-plane"));
+  CHECK(path("to 0, 0, Z-plane\nto a, 1, b-plane\nto 0, 0, b-plane\nz h-plane\n").find("touch-oblique") ==
+        std::string::npos);
   // A start that keeps the radius away from both walls, or that the path leaves another way, is none.
   CHECK(path("to a-r, b-r, Z-plane\nz h-plane\nz Z-plane\n").find("touch-oblique") == std::string::npos);
   CHECK(path("z h-plane\nto a, b, h-plane\nz h+1-plane\nto 0, 0, h+1-plane\n").find("touch-oblique") ==
