@@ -141,6 +141,13 @@ std::string FieldTable::proposal(const std::string& name) const {
         variables.push_back(variable);
     }
   }
+  std::vector<std::string> declaredNames;
+  for (const Entry& entry : entries_)
+    declaredNames.push_back(entry.name);
+  if (const std::string near = nearestName(name, declaredNames); variables.empty() && !near.empty())
+    return fmt::format(
+        "did you mean `{1}`? else give `--field {0}={1}`, which prints that, or `--set {0}=VALUE`", name,
+        near);
   if (variables.empty())
     return fmt::format("give `--set {}=VALUE`, or `--field {}=VARIABLE` with a variable of the macro", name,
                        name);

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <fmt/format.h>
 
 namespace dotek::project {
 
@@ -44,14 +45,57 @@ std::string routineNames(const compost::Program& program) {
   return names.empty() ? "none" : quotedList(names);
 }
 
+// Words of conditions that ask for the cycle and are not spelt CycleType?; each once.
+void findMisspelt(const compost::Condition& condition, const std::string& cycle,
+                  std::vector<std::string>& out) {
+  constexpr std::string_view kWord = "CycleType";
+  constexpr std::size_t kMost = 2;
+  for (const compost::ConditionTerm& term : condition.terms) {
+    if (const auto* inner = std::get_if<std::unique_ptr<compost::Condition>>(&term.operand))
+      findMisspelt(**inner, cycle, out);
+    const auto* word = std::get_if<compost::Word>(&term.operand);
+    const bool asks = word != nullptr && word->kind == compost::WordKind::Boolean && word->name != kWord &&
+                      word->arguments.size() == 1 && word->arguments.front().text == cycle;
+    if (asks && nameDistance(word->name, kWord, kMost) <= kMost &&
+        std::find(out.begin(), out.end(), word->name) == out.end())
+      out.push_back(word->name);
+  }
+}
+
+void findMisspelt(const std::vector<compost::Statement>& statements, const std::string& cycle,
+                  std::vector<std::string>& out) {
+  for (const compost::Statement& statement : statements) {
+    const auto* branch = std::get_if<std::unique_ptr<compost::If>>(&statement);
+    if (branch == nullptr) continue;
+    findMisspelt((*branch)->condition, cycle, out);
+    findMisspelt((*branch)->thenBody, cycle, out);
+    findMisspelt((*branch)->elseBody, cycle, out);
+  }
+}
+
+// A name that differs in one letter comes before one that begins alike, which is another cycle's.
+std::string nearestCycle(const std::string& cycle, const std::vector<std::string>& ids) {
+  const std::string near = nearestName(cycle, ids);
+  if (!near.empty() && nameDistance(near, cycle, 1) <= 1) return near;
+  const auto slip = std::find_if(ids.begin(), ids.end(),
+                                 [&](const std::string& id) { return nameDistance(id, cycle, 1) == 1; });
+  return slip != ids.end() ? *slip : near;
+}
+
 } // namespace
 
 std::string testedCycles(const compost::Program& program, const std::string& cycle) {
+  std::vector<std::string> misspelt;
+  for (const compost::Item& item : program.items)
+    if (const auto* routine = std::get_if<compost::Routine>(&item))
+      findMisspelt(routine->body, cycle, misspelt);
   const std::vector<std::string> ids = compost::cycleIds(program);
-  if (ids.empty()) return "the Prog tests for no cycle";
-  const std::string near = nearestName(cycle, ids);
-  return "the Prog tests for " + quotedList(ids) +
-         (near.empty() ? "" : "; did you mean `--cycle " + near + "`?");
+  std::string out = ids.empty() ? "the Prog tests for no cycle" : "the Prog tests for " + quotedList(ids);
+  if (!misspelt.empty())
+    return out +
+           fmt::format("; did you mean `CycleType?` where it says `{}?('{}')`?", misspelt.front(), cycle);
+  const std::string near = nearestCycle(cycle, ids);
+  return out + (near.empty() ? "" : "; did you mean `--cycle " + near + "`?");
 }
 
 std::optional<compost::Program> loadProg(const std::string& path, Session& session, bool checked) {

@@ -105,8 +105,9 @@ void cycle(State& state, const ir::CallCycle& cycle, std::size_t index) {
   if (!surface && !pocket && !bore && !outside) {
     std::string what = cycle.cycle;
     std::replace(what.begin(), what.end(), '-', ' ');
+    const bool corner = cycle.cycle == stdlib::intentName(stdlib::Intent::InnerCorner);
     state.refuse<diag::MikroprogCannot>(
-        range, "the measurement `" + what + "`",
+        range, corner ? "an inner corner with a second touch of a face" : "the measurement `" + what + "`",
         "Dotek writes surfaces, pockets, webs, bores, bosses and inner corners "
         "for it; print touches of single surfaces instead");
     return;

@@ -3,6 +3,8 @@
 #include "frontend/gibbs/Walk.h"
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 namespace dotek::frontend::gibbs {
 namespace {
@@ -35,31 +37,51 @@ public:
         Values changed = context_.fields;
         changed[fields_[one]] = value;
         for (std::size_t two = one + 1; two < fields_.size(); ++two)
-          if (passesWith(changed, fields_[two])) return {fields_[one], fields_[two]};
+          if (const auto other = passesWith(changed, fields_[two]))
+            return behindFirst({fields_[one], value}, {fields_[two], *other});
       }
     return out;
   }
 
 private:
+  using Cured = std::pair<std::string, double>; // a field and a value for it
+
+  // Two values that are wrong each for itself: the message is that of the one whose change takes it away.
+  std::vector<std::string> behindFirst(const Cured& one, const Cured& two) const {
+    const auto first = firstRejection(context_.fields);
+    const auto moved = [&](const Cured& cured) {
+      Values fields = context_.fields;
+      fields[cured.first] = cured.second;
+      return firstRejection(fields) != first;
+    };
+    const bool byOne = moved(one), byTwo = moved(two);
+    if (byOne == byTwo) return {one.first, two.first};
+    return {byOne ? one.first : two.first};
+  }
+  std::optional<std::pair<FileId, std::uint32_t>> firstRejection(const Values& fields) const {
+    const ChecksResult result = run(fields);
+    if (result.rejections.empty()) return std::nullopt;
+    const SourceRange range = result.rejections.front().range;
+    return std::pair(range.file, range.begin);
+  }
+
   // Another message in the place of the first shows nothing: the new value may be what it complains of.
-  bool passesWith(Values fields, const std::string& field) const {
+  std::optional<double> passesWith(Values fields, const std::string& field) const {
     for (const double value : values_) {
       fields[field] = value;
-      Diagnostics ignored;
-      RunContext context{context_.sources,
-                         context_.keywords,
-                         limits_,
-                         ignored,
-                         fields,
-                         context_.hosts,
-                         context_.assumptions,
-                         context_.load,
-                         context_.loadDialog};
-      const auto verdict = runChecks(cycleData_, context).verdict;
-      if (verdict == ChecksResult::Verdict::NotRun) return false;
-      if (verdict != ChecksResult::Verdict::Rejected) return true;
+      const auto verdict = run(fields).verdict;
+      if (verdict == ChecksResult::Verdict::NotRun) return std::nullopt;
+      if (verdict != ChecksResult::Verdict::Rejected) return value;
     }
-    return false;
+    return std::nullopt;
+  }
+
+  ChecksResult run(const Values& fields) const {
+    Diagnostics ignored;
+    RunContext context{
+        context_.sources, context_.keywords,  limits_, ignored, fields, context_.hosts, context_.assumptions,
+        context_.load,    context_.loadDialog};
+    return runChecks(cycleData_, context);
   }
 
   // Usual values, and those around the bounds that the macros state and around the other fields.
