@@ -78,6 +78,9 @@ private:
   std::unique_ptr<Values> check(verify::Case drawn, bool settle);
   std::optional<verify::Case> drawFrom(std::uint64_t index, std::uint32_t tries, std::uint32_t end,
                                        bool wide);
+  // A target that writes a program for each case, and nothing was found for this one: what is refused
+  // whatever the path is comes before what the path lacks.
+  void askConversion(std::uint64_t index);
   bool passesUnstated() const;
   bool halvesBetweenSteps(const ir::Program& program) const;
   verify::Case settled(verify::Case drawn);

@@ -23,7 +23,9 @@ constexpr std::uint64_t kCallerCases = 8; // in which callers break what the tra
 std::optional<verify::Case> CaseRunner::draw(std::uint64_t index) {
   rejected_.clear();
   others_ = 0;
-  return drawFrom(index, 0, kAttempts, false);
+  std::optional<verify::Case> out = drawFrom(index, 0, kAttempts, false);
+  if (!out) askConversion(index);
+  return out;
 }
 
 std::optional<verify::Case> CaseRunner::another(std::uint64_t index) {

@@ -46,6 +46,25 @@ TargetRun CaseRunner::runTarget(const Values& values, sim::World& world, bool pr
   return target_->run(now);
 }
 
+void CaseRunner::askConversion(std::uint64_t index) {
+  constexpr std::uint32_t kAsked = 200, kEnough = 3;
+  if (target_ == nullptr || !findTarget(options_.to)->fixesValues || options_.translation) return;
+  std::uint32_t refused = 0;
+  std::string why;
+  for (std::uint32_t tries = 0; tries < kAsked && refused < kEnough; ++tries) {
+    const std::unique_ptr<Values> values = check(draws_->propose(index, tries), false);
+    if (!values || values->rejected) continue;
+    const sim::Part empty = emptyPart(zeroOf(values->drawn));
+    sim::World nothing(empty, probeFor(plan_, values->drawn));
+    const TargetRun run = runTarget(*values, nothing, false, nullptr, nullptr);
+    // Not of these values alone: for others it is the same.
+    if (!run.refused || (refused > 0 && run.why != why)) return;
+    ++refused;
+    why = run.why;
+  }
+  if (refused == kEnough) rejected_[{why, 0}] = {refused, why, {}, true};
+}
+
 SourceRange CaseRunner::progPlace(SourceRange posted, const std::vector<compost::PostedLine>& lines) {
   if (!posted.hasPlace() || lines.empty()) return {};
   // The text was "O1", then a posted line each.
