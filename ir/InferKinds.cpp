@@ -13,6 +13,7 @@ namespace {
 struct Group {
   std::vector<VariableId> variables;
   Kind kind = Kind::Number;
+  bool index = false; // chooses a variable of the machine: whole, unless something else is known of it
 };
 
 class Inference {
@@ -38,11 +39,13 @@ public:
       if (groups_[i].kind != Kind::Number) open_.push_back(i);
     for (std::size_t i = 0; i < groups_.size(); ++i)
       if (groups_[i].kind == Kind::Number && adopt(groups_[i])) open_.push_back(i);
-    while (!open_.empty()) {
-      const std::size_t at = open_.front();
-      open_.pop_front();
-      spread(groups_[at]);
+    spreadAll();
+    for (std::size_t i = 0; i < groups_.size(); ++i) {
+      if (!groups_[i].index || groups_[i].kind != Kind::Number || adopt(groups_[i])) continue;
+      groups_[i].kind = Kind::Count;
+      open_.push_back(i);
     }
+    spreadAll();
   }
 
 private:
@@ -50,6 +53,14 @@ private:
   // number.
   bool holdsOneKind(VariableId id) const {
     return id >= assigned_.size() || assigned_[id] < 2 || cycle_.variables[id].role != Role::Local;
+  }
+
+  void spreadAll() {
+    while (!open_.empty()) {
+      const std::size_t at = open_.front();
+      open_.pop_front();
+      spread(groups_[at]);
+    }
   }
 
   // The kind of the first declared variable of the group.
@@ -93,7 +104,11 @@ private:
             if (word.value != nullptr) add(word.value, ofTool ? Kind::ToolOffset : Kind::Number);
           }
         },
-        [&](const OneOf<Store, Label, Jump, Return, ProbePower, Spindle, Coolant, Dwell, Stop, Alarm,
+        [&](const Store& node) {
+          addIndex(node.number);
+          add(node.value, Kind::Number);
+        },
+        [&](const OneOf<Label, Jump, Return, ProbePower, Spindle, Coolant, Dwell, Stop, Alarm,
                         Comment> auto&) {
           eachSlot(statement, [&](const ExpressionPtr& value) { add(value, Kind::Number); });
         });
@@ -117,6 +132,12 @@ private:
         [](const Truth&) {});
   }
 
+  void addIndex(const ExpressionPtr& number) {
+    const std::size_t first = groups_.size();
+    add(number, Kind::Number);
+    if (groups_.size() > first) groups_.back().index = true;
+  }
+
   void add(const ExpressionPtr& value, Kind kind) {
     Group group;
     group.kind = kind;
@@ -131,7 +152,7 @@ private:
         [&](const VariableUse& node) {
           if (holdsOneKind(node.variable)) group.variables.push_back(node.variable);
         },
-        [&](const MachineVariable& node) { add(node.number, Kind::Number); },
+        [&](const MachineVariable& node) { addIndex(node.number); },
         [&](const Unary& node) {
           if (keepsKind(node.op)) return collect(node.operand, group);
           add(node.operand, operandKind(node.op));

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string>
 
 namespace dotek::backends {
@@ -21,11 +22,24 @@ public:
     std::erase_if(cycle.arguments, [&](const ir::CycleArgument& one) {
       return macroArgument(signature_, one.parameter) == nullptr && !one.moves && isTaken(cycle, one);
     });
-    return std::move(checks_);
+    // A macro compares in its own order, whatever that of the letters is.
+    std::stable_sort(checks_.begin(), checks_.end(),
+                     [](const Ranked& a, const Ranked& b) { return a.rank < b.rank; });
+    std::vector<Tolerance> out;
+    for (Ranked& one : checks_)
+      out.push_back(std::move(one.tolerance));
+    return out;
   }
 
 private:
   bool isTaken(const ir::CallCycle& cycle, const ir::CycleArgument& one) {
+    constexpr stdlib::ArgumentRole kOrder[] = {
+        stdlib::ArgumentRole::UpperLimit, stdlib::ArgumentRole::SizeTolerance,
+        stdlib::ArgumentRole::PositionTolerance, stdlib::ArgumentRole::AngleTolerance};
+    const auto* role = std::find_if(std::begin(kOrder), std::end(kOrder), [&](stdlib::ArgumentRole known) {
+      return one.parameter == stdlib::roleName(known);
+    });
+    rank_ = static_cast<int>(role - std::begin(kOrder));
     if (one.parameter == stdlib::roleName(stdlib::ArgumentRole::UpperLimit))
       return addLimit(cycle, one.value);
     if (one.parameter == stdlib::roleName(stdlib::ArgumentRole::SizeTolerance))
@@ -54,7 +68,7 @@ private:
   }
 
   bool add(const ir::ExpressionPtr& error, const ir::ExpressionPtr& limit, std::string_view text) {
-    if (error != nullptr) checks_.push_back({error, compared(limit), text});
+    if (error != nullptr) checks_.push_back({rank_, {error, compared(limit), text}});
     return error != nullptr;
   }
   static ir::ExpressionPtr variable(const stdlib::MacroResult& result) {
@@ -109,7 +123,12 @@ private:
 
   const stdlib::MacroSignature& signature_;
   const ExpectedAlong& expected_;
-  std::vector<Tolerance> checks_;
+  struct Ranked {
+    int rank = 0;
+    Tolerance tolerance;
+  };
+  int rank_ = 0; // of the argument that is looked at
+  std::vector<Ranked> checks_;
 };
 
 } // namespace

@@ -21,8 +21,9 @@ struct Tolerance {
 // Where the source expects the feature of the cycle along the axis, work coordinates; nullptr: not known.
 using ExpectedAlong = std::function<ir::ExpressionPtr(const ir::CallCycle& cycle, ir::Axis axis)>;
 
-// Takes the tolerances that `signature` has no letter for out of the cycle's arguments, in their order. One
-// stays where what it compares is no documented result of the macro, or where `expected` does not know.
+// Takes the tolerances that `signature` has no letter for out of the cycle's arguments; they come in the
+// order in which macros compare them: the error itself, size, position, angle. One stays where what it
+// compares is no documented result of the macro, or where `expected` does not know.
 std::vector<Tolerance> takeTolerances(ir::CallCycle& cycle, const stdlib::MacroSignature& signature,
                                       const ExpectedAlong& expected);
 

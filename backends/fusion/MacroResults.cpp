@@ -47,7 +47,9 @@ void MacroBlocks::store(const ir::Store& store, const ir::Origin& origin, std::v
     Text text;
     macro(text, ir::machineVariable(store.number), origin);
     text.add("=");
+    wholeRound_ = true;
     macro(text, ir::simplify(store.value), origin);
+    wholeRound_ = false;
     lines.push_back(std::move(text));
     return;
   }

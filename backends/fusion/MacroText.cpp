@@ -61,6 +61,63 @@ bool isRaised(const std::vector<ir::PrintedBlock>& blocks, int number) {
   return false;
 }
 
+// Whether results of measurements are the same on every way to the label: nothing that changes them is
+// between it and the jumps to it, and no other jump leads in between.
+bool isSameFrom(const std::vector<ir::CycleStatement>& body, std::size_t label) {
+  const auto targetOf = [](const ir::CycleStatement& one) -> std::optional<ir::LabelId> {
+    if (const auto* branch = std::get_if<ir::Branch>(&one.node)) return branch->target;
+    if (const auto* jump = std::get_if<ir::Jump>(&one.node)) return jump->target;
+    return std::nullopt;
+  };
+  if (label >= body.size()) return false;
+  const ir::LabelId own = std::get<ir::Label>(body[label].node).label;
+  std::size_t first = label, last = label;
+  for (std::size_t i = 0; i < body.size(); ++i)
+    if (targetOf(body[i]) == own) {
+      first = std::min(first, i);
+      last = std::max(last, i);
+    }
+  for (std::size_t i = first; i <= last; ++i) {
+    const bool changes = ir::match(
+        body[i],
+        [](const ir::OneOf<ir::Measure, ir::CallCycle, ir::Move, ir::OpaqueBlock> auto&) { return true; },
+        [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::ProbePower, ir::Comment,
+                           ir::Assign, ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop,
+                           ir::Alarm> auto&) { return false; });
+    if (changes) return false;
+    const auto* inner = std::get_if<ir::Label>(&body[i].node);
+    for (std::size_t j = 0; inner != nullptr && j < body.size(); ++j)
+      if (targetOf(body[j]) == inner->label && (j < first || j > last)) return false;
+  }
+  return true;
+}
+
+// "" where there is none of one argument in brackets that means the same.
+std::string_view functionOf(ir::UnaryOp op, bool wholeRound) {
+  switch (op) {
+  case ir::UnaryOp::Absolute: return "ABS";
+  case ir::UnaryOp::SquareRoot: return "SQRT";
+  case ir::UnaryOp::Sine: return "SIN";
+  case ir::UnaryOp::Cosine: return "COS";
+  case ir::UnaryOp::Tangent: return "TAN";
+  case ir::UnaryOp::ArcSine: return "ASIN";
+  case ir::UnaryOp::ArcCosine: return "ACOS";
+  case ir::UnaryOp::Truncate: return "FIX";
+  case ir::UnaryOp::RoundUp: return "FUP";
+  case ir::UnaryOp::Round: return wholeRound ? "ROUND" : "";
+  case ir::UnaryOp::Logarithm: return "LN";
+  case ir::UnaryOp::Exponential: return "EXP";
+  case ir::UnaryOp::Negate:
+  case ir::UnaryOp::ArcTangent:
+  case ir::UnaryOp::NullAsZero:
+  case ir::UnaryOp::RoundIncrement:
+  case ir::UnaryOp::FromBcd:
+  case ir::UnaryOp::ToBcd:
+  case ir::UnaryOp::AddPoint: return "";
+  }
+  return "";
+}
+
 } // namespace
 
 void MacroBlocks::flow(const ir::CycleStatement& statement) {
@@ -85,7 +142,7 @@ void MacroBlocks::flow(const ir::CycleStatement& statement) {
             at >= 2 && at < body.size() ? std::get_if<ir::Branch>(&body[at - 2].node) : nullptr;
         if (jumps == 1 && over != nullptr && over->target == node.label) return;
         forget();
-        last_ = nullptr;
+        if (!isSameFrom(body, at)) last_ = nullptr;
       },
       [&](const ir::Store& node) {
         const double* number = ir::constantValue(node.number);
@@ -155,12 +212,10 @@ void MacroBlocks::macro(Text& text, const ir::ExpressionPtr& value, const ir::Or
       },
       [&](const ir::Unary& node) {
         if (node.op == ir::UnaryOp::NullAsZero) return macro(text, node.operand, origin);
-        if (node.op != ir::UnaryOp::Absolute && node.op != ir::UnaryOp::SquareRoot &&
-            node.op != ir::UnaryOp::Negate)
-          return refuse();
-        text.add(node.op == ir::UnaryOp::Absolute     ? "ABS["
-                 : node.op == ir::UnaryOp::SquareRoot ? "SQRT["
-                                                      : "[0-");
+        const std::string function(functionOf(node.op, wholeRound_));
+        const bool known = !function.empty() && state_.options.control.functions.contains(function);
+        if (!known && node.op != ir::UnaryOp::Negate) return refuse();
+        text.add(known ? function + "[" : "[0-");
         if (node.op == ir::UnaryOp::Negate)
           macroOperand(text, node.operand, origin);
         else
@@ -168,6 +223,15 @@ void MacroBlocks::macro(Text& text, const ir::ExpressionPtr& value, const ir::Or
         text.add("]");
       },
       [&](const ir::Binary& node) {
+        // As the source has it: which of two angles it gives, a parameter of the control says.
+        if (node.op == ir::BinaryOp::Bearing) {
+          if (!state_.options.control.functions.contains("ATAN[y]/[x]")) return refuse();
+          text.add("ATAN[");
+          macro(text, node.right, origin);
+          text.add("]/[");
+          macro(text, node.left, origin);
+          return text.add("]");
+        }
         const std::string_view sign = node.op == ir::BinaryOp::Add        ? "+"
                                       : node.op == ir::BinaryOp::Subtract ? "-"
                                       : node.op == ir::BinaryOp::Multiply ? "*"

@@ -191,7 +191,8 @@ private:
   State& state_;
   Texts& texts_;
   Place at_[3];
-  Place expected_[3];                        // where the last measurement expects the feature
+  Place expected_[3];       // where the last measurement expects the feature
+  bool wholeRound_ = false; // ROUND rounds to whole numbers, in an assignment; in a word to its increment
   const ir::CycleStatement* last_ = nullptr; // Measure or CallCycle whose results are
   const ir::Origin* incremental_ = nullptr;  // of the G91 that is in force in the source
   const ir::Origin* opaque_ = nullptr;       // of the copied block that is looked at
