@@ -155,12 +155,22 @@ private:
         if (std::find(said_.begin(), said_.end(), one) == said_.end()) said_.push_back(std::move(one));
     }
     plan_.targetMacros = std::move(written->macros);
+    const bool callsMacros = std::find(target_->flags.begin(), target_->flags.end(),
+                                       TargetFlag::ProbeMacros) != target_->flags.end();
+    if (!callsMacros || plan_.targetMacros != plan_.sourceMacros) keepToSixSystems();
     plan_.translation = std::move(written->translation);
     return true;
   }
 
+  // Numbers of G54.1 Pn have a meaning in the source's own set alone.
+  void keepToSixSystems() {
+    for (verify::DrawField& field : plan_.fields)
+      if (!field.extendedAlone) field.extended.clear();
+  }
+
   // A program without arguments is written for each case, or edited for one.
   bool plannedForEachCase() {
+    keepToSixSystems();
     Translation translation;
     translation.name = main_.folder().name;
     if (options_.translation) {

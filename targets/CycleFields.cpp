@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <set>
 #include <utility>
@@ -62,10 +63,43 @@ double firstSystemOf(const verify::DrawField& field) {
   return !compared(kCode) && !compared(kCode + kMost - 1) && compared(kMost) ? 1 : kCode;
 }
 
-void add(verify::DrawField field, const LoweringInputs& inputs, VerifyPlan& plan) {
+// What the dialog, the first value or the checks show to stand for G54.1 P1 and following.
+void findExtended(verify::DrawField& field, const stdlib::MacroSet& macros, const stdlib::Control& control) {
+  const auto argument = [&]() -> const stdlib::MacroArgument* {
+    for (const stdlib::MacroSignature& signature : macros.signatures)
+      for (const stdlib::MacroArgument& one : signature.arguments)
+        if (one.role == stdlib::ArgumentRole::System && one.extendedFirst != 0) return &one;
+    return nullptr;
+  }();
+  if (argument == nullptr || !control.variables.extendedX) return;
+  const double first = argument->extendedFirst;
+  const double last = std::min<double>(argument->extendedLast, first + control.variables.extendedCount - 1);
+  const auto isExtended = [&](double value) { return value >= first && value <= last; };
+  const auto isOne = [&](double value) { return field.systemOf(value) != 0; };
+  if (!field.choices.empty()) {
+    std::copy_if(field.choices.begin(), field.choices.end(), std::back_inserter(field.extended), isExtended);
+    field.extendedAlone = std::none_of(field.choices.begin(), field.choices.end(), isOne);
+    return;
+  }
+  const bool begins = field.initial && isExtended(*field.initial);
+  const bool shown = begins || std::any_of(field.thresholds.begin(), field.thresholds.end(), isExtended);
+  for (double value = first; shown && value <= last; ++value)
+    field.extended.push_back(value);
+  const auto compares = [&](double least, double most) {
+    return std::any_of(field.thresholds.begin(), field.thresholds.end(),
+                       [&](double value) { return value >= least && value <= most; });
+  };
+  field.extendedAlone = begins && compares(first - 1, first) && !compares(1, 6) && !compares(54, 59);
+}
+
+void add(verify::DrawField field, const LoweringInputs& inputs, VerifyPlan& plan,
+         const stdlib::MacroSet* macros) {
   for (const auto& [given, value] : inputs.sets)
     if (gibbs::foldCase(given) == gibbs::foldCase(field.name)) field.fixed = value;
-  if (field.kind == ir::Kind::WorkOffset) field.firstSystem = firstSystemOf(field);
+  if (field.kind == ir::Kind::WorkOffset) {
+    field.firstSystem = firstSystemOf(field);
+    if (macros != nullptr && inputs.sourceControl) findExtended(field, *macros, *inputs.sourceControl);
+  }
   plan.fields.push_back(std::move(field));
 }
 
@@ -195,7 +229,7 @@ void takeFields(const LoweredCycle& lowered, const CycleFolder& folder, const Lo
     if (const auto list = offered.find(gibbs::foldCase(variable.name)); list != offered.end())
       field.choices = list->second;
     if (limits.contains(id)) field.thresholds.push_back(kBeyondMeasured);
-    add(std::move(field), inputs, plan);
+    add(std::move(field), inputs, plan, lowered.macros);
   }
 }
 
@@ -207,7 +241,7 @@ void takeDeclaredFields(const CycleFolder& folder, const LoweringInputs& inputs,
     field.initial = declared.value;
     if (const auto list = offered.find(gibbs::foldCase(field.name)); list != offered.end())
       field.choices = list->second;
-    add(std::move(field), inputs, plan);
+    add(std::move(field), inputs, plan, nullptr);
   }
 }
 

@@ -179,6 +179,8 @@ bool Draws::isDrawn(const char* host) const {
 double Draws::value(std::size_t index, bool near, std::uint32_t attempt, Random& random) const {
   const DrawField& field = fields_[index];
   if (field.fixed) return *field.fixed;
+  if (!field.extended.empty() && (field.extendedAlone || random.chance(0.25)))
+    return field.extended[random.below(field.extended.size())];
   if (field.kind == Kind::WorkOffset)
     return field.firstSystem + static_cast<double>(random.whole(0, kLastSystem - kFirstSystem));
   if (!field.choices.empty()) return field.choices[random.below(field.choices.size())];

@@ -26,6 +26,8 @@ struct DrawField {
   std::vector<double> thresholds; // constants that the checks compare it with
   std::vector<double> choices;    // that the dialog offers; empty: any number
   double firstSystem = 54;        // of a work offset: the number that is G54
+  std::vector<double> extended;   // of a work offset: numbers beside those that stand for G54.1 Pn
+  bool extendedAlone = false;     // the six are not offered
   std::optional<double> fixed;    // by --set or the job: always this
 
   // Of a work offset the G code that the value is: 54 to 59; 0: none of them.

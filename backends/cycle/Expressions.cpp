@@ -310,7 +310,11 @@ std::string conditionText(State& state, const ir::ConditionPtr& condition, Sourc
 }
 
 std::string systemText(State& state, const ir::ExpressionPtr& system, SourceRange range) {
-  if (const double* number = ir::constantValue(system)) return "G" + numberText(*number);
+  constexpr double kLast = 59;
+  if (const double* number = ir::constantValue(system)) {
+    if (*number > kLast) state.refuse(range, "a work offset beyond G54 to G59", "take one of those");
+    return "G" + numberText(*number);
+  }
   if (const auto* use = std::get_if<ir::VariableUse>(&system->node)) return state.names[use->variable];
   if (const auto* sum = std::get_if<ir::Binary>(&system->node); sum && sum->op == ir::BinaryOp::Add)
     for (const auto& [one, other] : {std::pair(sum->left, sum->right), std::pair(sum->right, sum->left)}) {

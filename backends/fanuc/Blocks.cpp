@@ -1,4 +1,5 @@
 // NC blocks: statements of one block of the source share a line.
+#include "backends/common/ToolLength.h"
 #include "backends/fanuc/State.h"
 #include "support/Decimal.h"
 #include "support/messages/Fanuc.h"
@@ -243,20 +244,26 @@ bool isBlock(const ir::CycleStatement& statement) {
 void writeOpaque(State& state, const ir::OpaqueBlock& block, const ir::Origin& origin) {
   const std::string text = copiedText(state, block, origin);
   if (text.empty()) return;
-  // H0 would take the tool's length away, and the next move is as much lower.
-  const bool adds = std::any_of(block.words.begin(), block.words.end(), [&](const ir::Word& word) {
-    const double* code = word.address == 'G' && word.value ? ir::constantValue(word.value) : nullptr;
-    const auto* info = code == nullptr || *code < 0 || *code > 9999
-                           ? nullptr
-                           : state.control.find('G', static_cast<std::uint32_t>(std::lround(*code * 10)));
-    return info != nullptr && info->function == Function::ToolLengthPlus;
-  });
-  for (const ir::Word& word : block.words)
-    if (adds && word.address == 'H' && word.value && ir::constantValue(word.value) == nullptr)
-      alarmIf(state, ir::compare(ir::Relation::LessEqual, word.value, ir::constant(0)),
-              "TOOL OFFSET NOT ABOVE 0", origin);
+  for (const LengthOffset& offset : lengthOffsets(state.cycle, state.control)) {
+    const ir::ExpressionPtr& number = offset.word->value;
+    if (offset.at != state.at || ir::constantValue(number) != nullptr) continue;
+    const auto same = [&](const ir::ExpressionPtr& other) { return ir::equal(other, number); };
+    if (state.options.branch || !offset.always || !isOfArguments(state.cycle, number))
+      writeLengthAlarm(state, number, origin);
+    else if (std::none_of(state.lengths.begin(), state.lengths.end(), same))
+      state.lengths.push_back(number); // before anything moves
+  }
   state.sheet.add(text, origin);
 }
+
+} // namespace
+
+void writeLengthAlarm(State& state, const ir::ExpressionPtr& offset, const ir::Origin& origin) {
+  alarmIf(state, ir::compare(ir::Relation::LessEqual, offset, ir::constant(0)), "TOOL OFFSET NOT ABOVE 0",
+          origin);
+}
+
+namespace {
 
 void writeAlone(State& state, const ir::CycleStatement& statement) {
   match(

@@ -123,12 +123,14 @@ std::optional<std::vector<EmittedLine>> emit(const ir::Cycle& given, const EmitO
   writeStarts(state);
   writeRequirements(state);
   writeList(state, state.cycle.checks, false);
-  for (const ir::ExpressionPtr& system : std::exchange(state.systems, {}))
+  for (const NamedSystem& system : std::exchange(state.systems, {}))
     writeSystemAlarm(state, system, made("range of the work system"));
   for (const ir::ExpressionPtr& distance : std::exchange(state.distances, {}))
     writeDistanceAlarm(state, distance, made("way of a touch"));
   for (const ir::ExpressionPtr& tool : std::exchange(state.tools, {}))
     writeToolAlarm(state, tool, made("range of the tool offset"));
+  for (const ir::ExpressionPtr& offset : std::exchange(state.lengths, {}))
+    writeLengthAlarm(state, offset, made("a tool length that the program puts in force"));
   writeModes(state, saved);
   state.sheet.append(body);
   restoreModes(state, saved);
@@ -177,8 +179,8 @@ std::optional<BranchBlocks> emitBranch(const ir::Cycle& given, const EmitOptions
   if (state.failed) return std::nullopt;
   writeStarts(state);
   if (state.writesOffset) writeRequirements(state);
-  for (const ir::ExpressionPtr& system : std::exchange(state.systems, {})) {
-    const auto* use = std::get_if<ir::VariableUse>(&system->node);
+  for (const NamedSystem& system : std::exchange(state.systems, {})) {
+    const auto* use = std::get_if<ir::VariableUse>(&system.number->node);
     if (use == nullptr || !branch.holes.contains(use->variable)) // those of fields are the dialog's business
       writeSystemAlarm(state, system, made("range of the work system"));
   }

@@ -1,4 +1,6 @@
 #include "backends/fanuc/Example.h"
+
+#include "backends/common/ToolLength.h"
 #include "ir/Evaluate.h"
 
 namespace dotek::backends::fanuc {
@@ -44,6 +46,13 @@ std::map<ir::VariableId, double> exampleValues(const State& state) {
   std::map<ir::VariableId, double> out;
   ir::Environment all(state.cycle.variables.size());
   std::vector<ir::VariableId> open; // what the caller has to choose
+  const std::vector<LengthOffset> lengths = lengthOffsets(state.cycle, state.control);
+  const auto putsLength = [&](ir::VariableId id) {
+    return std::any_of(lengths.begin(), lengths.end(), [&](const LengthOffset& offset) {
+      const auto* use = std::get_if<ir::VariableUse>(&offset.word->value->node);
+      return use != nullptr && use->variable == id;
+    });
+  };
   for (std::size_t i = 0; i < all.size(); ++i) {
     const ir::Variable& variable = state.cycle.variables[i];
     if (variable.role == ir::Role::Local) continue;
@@ -53,6 +62,7 @@ std::map<ir::VariableId, double> exampleValues(const State& state) {
   for (const Argument& argument : state.arguments) {
     const ir::Variable& variable = state.cycle.variable(argument.variable);
     out[argument.variable] = typical(variable);
+    if (putsLength(argument.variable) && out[argument.variable] <= 0) out[argument.variable] = 1;
     if (variable.defaultValue) continue;
     if (variable.optional)
       all[argument.variable] = ir::Scalar::null();

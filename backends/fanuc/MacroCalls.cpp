@@ -112,7 +112,9 @@ public:
                                           "an offset of an axis that it does not measure");
     CallValues values = valuesFor(state_, origin_);
     values.setsSystem = findRule();
-    if (measure_.setting) guardSystem(state_, measure_.setting->system, origin_);
+    if (measure_.setting)
+      guardSystem(state_, measure_.setting->system, origin_,
+                  values.setsSystem ? extendedSystems(state_, signature_) : ExtendedSystems());
     writeCall(state_, macroCall(signature_, measure_, values), origin_);
     if (state_.failed) return;
     keepResults(state_, origin_);
@@ -248,9 +250,10 @@ void writeCycle(State& state, const ir::CallCycle& given, const ir::Origin& orig
         return at == nullptr ? nullptr : tidy(at);
       });
   if (cycle.setting) {
-    guardSystem(state, cycle.setting->system, origin);
     values.setsSystem = setsByItself(state, cycle, *signature, !tolerances.empty(), origin);
     if (state.failed) return;
+    guardSystem(state, cycle.setting->system, origin,
+                values.setsSystem ? extendedSystems(state, *signature) : ExtendedSystems());
   }
   const MacroCall call = macroCall(*signature, cycle, values);
   for (const std::string& parameter : call.notTaken) {

@@ -48,6 +48,12 @@ ir::ResultName positionOf(ir::Axis axis) {
   return kNames[ir::indexOf(axis)];
 }
 
+bool names(double number, const ExtendedSystems& extended) {
+  const bool within = (number >= kFirstSystem && number <= kLastSystem) ||
+                      (extended.first != 0 && number >= extended.first && number <= extended.last);
+  return within && number == std::trunc(number);
+}
+
 // Other values of the arguments: the defaults, and some that differ.
 std::vector<ir::Environment> environments(const State& state) {
   std::vector<ir::Environment> out;
@@ -80,7 +86,7 @@ bool checksConfine(const State& state, ir::VariableId id) {
 // The first value of `id` that the checks let pass, where they let only such pass as `system` makes no work
 // system of: then whoever calls the program gets an alarm. Values that end like the largest and the smallest
 // are those that the checks of `id` reject, whatever the other arguments are.
-std::optional<double> passesNoSystem(const State& state, ir::VariableId id, const ir::Expression& system) {
+std::optional<double> passesNoSystem(const State& state, ir::VariableId id, const NamedSystem& system) {
   constexpr double kNone = 99999;
   constexpr int kMostTried = 400;
   for (ir::Environment& environment : environments(state)) {
@@ -94,8 +100,8 @@ std::optional<double> passesNoSystem(const State& state, ir::VariableId id, cons
     std::optional<double> first;
     for (int value = 0; value <= kMostTried; ++value) {
       if (alarm(value) == rejected) continue;
-      const ir::Scalar names = ir::evaluate(system, environment);
-      if (!names.known() || (names.value >= kFirstSystem && names.value <= kLastSystem)) return std::nullopt;
+      const ir::Scalar named = ir::evaluate(*system.number, environment);
+      if (!named.known() || names(named.value, system.extended)) return std::nullopt;
       if (!first) first = value;
     }
     if (first) return first;
@@ -197,19 +203,36 @@ bool knownAtEntry(const State& state, const ir::ExpressionPtr& value) {
   });
 }
 
-void guardSystem(State& state, const ir::ExpressionPtr& given, const ir::Origin& origin) {
+ExtendedSystems extendedSystems(const State& state, const stdlib::MacroSignature& signature) {
+  const stdlib::SystemVariables& v = state.control.variables;
+  if (state.options.foreignMacros || !v.extendedX) return {};
+  for (const stdlib::MacroArgument& argument : signature.arguments) {
+    if (argument.role != stdlib::ArgumentRole::System || argument.extendedFirst == 0) continue;
+    const std::uint32_t last = std::min(
+        argument.extendedLast, argument.extendedFirst + static_cast<std::uint32_t>(v.extendedCount) - 1);
+    return {argument.extendedFirst + kFirstSystem - 1, last + kFirstSystem - 1};
+  }
+  return {};
+}
+
+void guardSystem(State& state, const ir::ExpressionPtr& given, const ir::Origin& origin,
+                 const ExtendedSystems& extended) {
   const ir::ExpressionPtr system = tidy(given);
   if (const double* value = ir::constantValue(system)) {
-    if (*value < kFirstSystem || *value > kLastSystem || *value != std::trunc(*value))
+    if (!names(*value, extended))
       state.refuse<diag::SystemRange>(system->range.hasPlace() ? system->range : origin.range(), *value);
     return;
   }
-  const auto same = [&](const ir::ExpressionPtr& other) { return ir::equal(other, system); };
-  if (std::any_of(state.systems.begin(), state.systems.end(), same)) return;
+  const auto same = std::find_if(state.systems.begin(), state.systems.end(),
+                                 [&](const NamedSystem& other) { return ir::equal(other.number, system); });
+  if (same != state.systems.end()) {
+    if (extended.first == 0) same->extended = {}; // somewhere it is one of the six
+    return;
+  }
   if (knownAtEntry(state, system))
-    state.systems.push_back(system);
+    state.systems.push_back({system, extended});
   else
-    writeSystemAlarm(state, system, origin);
+    writeSystemAlarm(state, {system, extended}, origin);
 }
 
 namespace {
@@ -230,7 +253,8 @@ std::uint32_t helperAtEntry(State& state) {
 
 } // namespace
 
-void writeSystemAlarm(State& state, const ir::ExpressionPtr& named, const ir::Origin& given) {
+void writeSystemAlarm(State& state, const NamedSystem& which, const ir::Origin& given) {
+  const ir::ExpressionPtr& named = which.number;
   ir::Origin origin;
   origin.ranges = given.ranges;
   origin.reason = "range of the work system";
@@ -252,7 +276,7 @@ void writeSystemAlarm(State& state, const ir::ExpressionPtr& named, const ir::Or
          origin);
   }
   for (const ir::VariableId read : variablesOf(named))
-    if (const auto passes = passesNoSystem(state, read, *named)) {
+    if (const auto passes = passesNoSystem(state, read, which)) {
       ir::Environment environment(state.cycle.variables.size());
       environment[read] = ir::Scalar::of(*passes);
       state.refuse<diag::SystemNeverNamed>(given.range(), state.cycle.variable(read).name,
@@ -260,13 +284,22 @@ void writeSystemAlarm(State& state, const ir::ExpressionPtr& named, const ir::Or
                                            numberText(ir::evaluate(*named, environment).value));
       return;
     }
-  constexpr std::string_view kText = "WORK OFFSET NOT 54 TO 59";
+  const bool more = which.extended.first != 0;
+  const std::string_view text = more ? "NO SUCH WORK OFFSET" : "WORK OFFSET NOT 54 TO 59";
   if (use == nullptr || state.cycle.variable(use->variable).role == ir::Role::Local ||
       !checksConfine(state, use->variable)) {
-    alarmIf(state, ir::compare(ir::Relation::Less, system, ir::constant(kFirstSystem)), kText, origin);
-    alarmIf(state, ir::compare(ir::Relation::Greater, system, ir::constant(kLastSystem)), kText, origin);
+    alarmIf(state, ir::compare(ir::Relation::Less, system, ir::constant(kFirstSystem)), text, origin);
+    const ir::ConditionPtr above = ir::compare(ir::Relation::Greater, system, ir::constant(kLastSystem));
+    alarmIf(state,
+            more ? ir::join(ir::Connective::And, above,
+                            ir::compare(ir::Relation::Less, system, ir::constant(which.extended.first)))
+                 : above,
+            text, origin);
+    if (more)
+      alarmIf(state, ir::compare(ir::Relation::Greater, system, ir::constant(which.extended.last)), text,
+              origin);
   }
-  alarmIf(state, ir::compare(ir::Relation::NotEqual, system, ir::unary(ir::UnaryOp::Truncate, system)), kText,
+  alarmIf(state, ir::compare(ir::Relation::NotEqual, system, ir::unary(ir::UnaryOp::Truncate, system)), text,
           origin);
   state.releaseHelpers();
 }

@@ -68,6 +68,15 @@ struct CopiedModes {
   std::vector<std::string> inForce;
 };
 
+// Numbers beside 54 to 59 that name a work system in a call; 0: none do.
+struct ExtendedSystems {
+  double first = 0, last = 0;
+};
+struct NamedSystem {
+  ir::ExpressionPtr number;
+  ExtendedSystems extended;
+};
+
 struct State {
   State(const ir::Cycle& given, const EmitOptions& emitOptions, const SourceMap& sourceMap,
         Diagnostics& report, std::vector<Argument> letters);
@@ -109,9 +118,10 @@ struct State {
   std::map<const ir::CycleStatement*, std::size_t> sourceAlarms; // index in `alarms`
   Guards guards;
   CopiedModes copied;
-  std::vector<ir::ExpressionPtr> systems;   // work systems to be checked at entry
+  std::vector<NamedSystem> systems;         // work systems to be checked at entry
   std::vector<ir::ExpressionPtr> distances; // of touches along a direction, likewise
   std::vector<ir::ExpressionPtr> tools;     // tool offsets, likewise
+  std::vector<ir::ExpressionPtr> lengths;   // tool offsets that blocks put in force, likewise
   std::vector<std::string> remarks;         // of the header
   std::set<std::string> reported;           // what is said once for the whole program
   std::set<ir::VariableId> moving;          // movingVariables() of the cycle
@@ -237,11 +247,17 @@ ir::ExpressionPtr offsetNumber(const stdlib::Control& control, const ir::Express
 std::optional<int> workSystemVariable(const stdlib::Control& control);
 // A block that the control does not read beyond before the axes are; nothing where it has none.
 void writeWait(State& state, const ir::Origin& origin);
-void writeSystemAlarm(State& state, const ir::ExpressionPtr& system, const ir::Origin& origin);
+void writeSystemAlarm(State& state, const NamedSystem& system, const ir::Origin& origin);
+// Where `offset` is not above 0.
+void writeLengthAlarm(State& state, const ir::ExpressionPtr& offset, const ir::Origin& origin);
 // What it reads is given before the body begins, and the body changes none of it.
 bool knownAtEntry(const State& state, const ir::ExpressionPtr& value);
-// Makes sure that `system` is 54 to 59 where nothing else does.
-void guardSystem(State& state, const ir::ExpressionPtr& system, const ir::Origin& origin);
+// Numbers with which a macro of the set that the source calls sets G54.1 P1 and following, counted as those
+// of the system are; none where another set is called.
+ExtendedSystems extendedSystems(const State& state, const stdlib::MacroSignature& signature);
+// Makes sure that `system` is 54 to 59, or one of `extended`, where nothing else does.
+void guardSystem(State& state, const ir::ExpressionPtr& system, const ir::Origin& origin,
+                 const ExtendedSystems& extended = {});
 
 // ---- Results.cpp ----
 

@@ -1,5 +1,6 @@
 // convert --to fanuc.
 #include "targets/Target.h"
+#include "backends/common/ToolLength.h"
 #include "backends/fanuc/Emit.h"
 #include "backends/fanuc/TargetEarly.h"
 #include "backends/fanuc/TargetPrograms.h"
@@ -62,6 +63,7 @@ public:
         session_.diagnostics().report<diag::CycleResultUnknown>({}, name, folder.name, "");
     const auto lists = dialogChoices(folder, lowered.cycle, session_.sources());
     confineToLists(lowered.cycle, lists);
+    backends::refuseNoLength(lowered.cycle, lowered.fixed, *inputs.sourceControl, session_.diagnostics());
     ir::fold(lowered.cycle, lowered.fixed);
     fanuc::EmitOptions emit{*inputs.control, *macros, *inputs.sourceControl, 0, {}, {}, {}, {}};
     emit.plainMessages = options_.common.assume.contains("plain-messages");

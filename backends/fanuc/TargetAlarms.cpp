@@ -13,6 +13,7 @@ namespace dotek::targets {
 namespace {
 
 constexpr std::string_view kSystemAlarm = "WORK OFFSET NOT 54 TO 59";
+constexpr std::string_view kExtendedAlarm = "NO SUCH WORK OFFSET";
 
 // Numbers and texts after `before`, "#3000=103(ARGUMENT X MISSING)": the text to the next bracket or line.
 std::vector<std::pair<std::uint32_t, std::string>> alarmsIn(std::string_view text, std::string_view before,
@@ -75,7 +76,8 @@ bool saysSo(std::string_view program, std::string_view alarm, std::string_view m
   // What a cycle finds at its table, a program asks before.
   const bool noTool = message.starts_with("there is no tool offset") && alarm.starts_with("TOOL OFFSET NOT");
   return noTool || wanted.find(plain(alarm)) != std::string::npos ||
-         (kSystemAlarm.starts_with(alarm) && !hasAlarm(program, wanted));
+         ((kSystemAlarm.starts_with(alarm) || kExtendedAlarm.starts_with(alarm)) &&
+          !hasAlarm(program, wanted));
 }
 
 std::string whyListsOther(std::string_view program) {

@@ -1,4 +1,5 @@
 // Blocks: texts of values first, then lines.
+#include "backends/common/ToolLength.h"
 #include "backends/fusion/State.h"
 #include "ir/Fold.h"
 #include "support/Decimal.h"
@@ -158,6 +159,13 @@ void Texts::number(Text& text, const ir::ExpressionPtr& given, const ir::Origin&
 }
 
 void writeBlocks(State& state) {
+  for (const LengthOffset& offset : lengthOffsets(state.cycle, state.options.control))
+    if (offset.always && ir::constantValue(offset.word->value) == nullptr &&
+        isOfArguments(state.cycle, offset.word->value)) {
+      const ir::Origin& origin = state.cycle.body[offset.at].origin;
+      state.errorIf(valueText(state, offset.word->value, origin.range()) + " <= 0",
+                    "the tool offset is not above 0, and the length of the tool would be taken away", origin);
+    }
   Texts texts(state);
   MacroBlocks macros(state, texts);
   std::vector<Line> lines;

@@ -1,4 +1,5 @@
 // convert --to fusion.
+#include "backends/common/ToolLength.h"
 #include "backends/fusion/TargetVerify.h"
 
 #include "backends/fusion/Emit.h"
@@ -155,6 +156,7 @@ private:
     if (macros == nullptr) macros = &none;
     const auto lists = dialogChoices(folder, lowered.cycle, session_.sources());
     confineToLists(lowered.cycle, lists);
+    backends::refuseNoLength(lowered.cycle, lowered.fixed, *inputs.sourceControl, session_.diagnostics());
     ir::fold(lowered.cycle, lowered.fixed);
     fusion::EmitOptions emit{*inputs.sourceControl,
                              *macros,

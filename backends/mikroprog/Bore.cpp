@@ -216,7 +216,7 @@ void middle(State& state, const std::vector<ir::Axis>& axes, const Feature& feat
   std::string system;
   if (setting) {
     const std::optional<double> number = valueOf(state, setting->system, range);
-    if (!number) return;
+    if (!number || !guardSystem(state, *number, range)) return;
     system = numberText(*number);
     for (const ir::Axis axis : axes) {
       const std::size_t i = ir::indexOf(axis);

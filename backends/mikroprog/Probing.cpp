@@ -105,6 +105,13 @@ void askOperator(State& state, ir::Axis axis, double contact, const std::string&
 
 } // namespace
 
+bool guardSystem(State& state, double system, SourceRange range) {
+  constexpr double kFirst = 54, kLast = 59;
+  if (system >= kFirst && system <= kLast) return true;
+  state.refuse<diag::SystemRange>(range, system);
+  return false;
+}
+
 void guard(State& state, const ir::Origin& origin) {
   ++state.probeMoves;
   if (state.guarded) return;
@@ -202,7 +209,7 @@ void measure(State& state, const ir::Measure& measure, std::size_t index) {
     const ir::ExpressionPtr& given = measure.setting->nominal[ir::indexOf(axis)];
     const std::optional<double> nominal = valueOf(state, given, range);
     const std::optional<double> system = valueOf(state, measure.setting->system, range);
-    if (!nominal || !system) return;
+    if (!nominal || !system || !guardSystem(state, *system, range)) return;
     if (axis == ir::Axis::Z && !state.options.lengthToCentre && state.remarked.insert("tip").second) {
       state.diagnostics.report<diag::LengthToTip>(range);
       state.remarks.push_back("Z COUNTS TO THE LOWEST POINT OF THE BALL");

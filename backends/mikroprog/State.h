@@ -104,6 +104,8 @@ std::string asciiText(State& state, const std::string& text, SourceRange range);
 
 // O7 before the first probe move of a chain.
 void guard(State& state, const ir::Origin& origin);
+// false: refused, `system` is none of G54 to G59.
+bool guardSystem(State& state, double system, SourceRange range);
 // A move that must meet nothing.
 void protectedMove(State& state, const ir::Move& move, const ir::Origin& origin);
 // A move to where contact is wanted: G31 with L to the tail.

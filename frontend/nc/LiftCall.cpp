@@ -210,7 +210,16 @@ bool Lifter::cycle(const stdlib::CallReading& reading, const std::vector<const W
   return true;
 }
 
-// The G number of the system that `read`, the argument, names.
+// 101 and following are G54.1 P1 and following: the control has that one.
+bool Lifter::isExtended(const stdlib::MacroArgument& argument, double number) const {
+  const stdlib::SystemVariables& v = context_.control.variables;
+  const double entry = number - argument.extendedFirst + 1;
+  return argument.extendedFirst != 0 && number <= argument.extendedLast && v.extendedX && entry >= 1 &&
+         entry <= v.extendedCount && number == std::trunc(number);
+}
+
+// The G number of the system that `read`, the argument, names. What stands for an extended one is counted on
+// from there: a call of the same macro gets the number back.
 ir::ExpressionPtr Lifter::workSystem(const stdlib::MacroArgument& argument, const Word& word,
                                      const ir::ExpressionPtr& read) {
   const bool index = argument.systemCode == stdlib::SystemCode::Index;
@@ -220,7 +229,8 @@ ir::ExpressionPtr Lifter::workSystem(const stdlib::MacroArgument& argument, cons
     const bool whole = number >= 0 && number < 10000 && number == std::trunc(number);
     const stdlib::CodeInfo* code =
         whole ? context_.control.find('G', static_cast<std::uint32_t>(number) * 10) : nullptr;
-    if (code == nullptr || code->function != stdlib::Function::WorkSystem) {
+    const bool standsForExtended = index && isExtended(argument, *known);
+    if (!standsForExtended && (code == nullptr || code->function != stdlib::Function::WorkSystem)) {
       refuse<diag::NoWorkSystem>(word.range, argument.letter, numberText(*known), context_.control.name);
       return nullptr;
     }

@@ -80,6 +80,7 @@ private:
   bool protectedMove(const stdlib::CallReading& reading, const std::vector<const Word*>& words);
   bool measure(const stdlib::CallReading& reading, const std::vector<const Word*>& words);
   bool cycle(const stdlib::CallReading& reading, const std::vector<const Word*>& words);
+  bool isExtended(const stdlib::MacroArgument& argument, double number) const;
   ir::ExpressionPtr workSystem(const stdlib::MacroArgument& argument, const Word& word,
                                const ir::ExpressionPtr& read);
   ir::ExpressionPtr argument(const stdlib::MacroArgument& argument, const Word& word);
