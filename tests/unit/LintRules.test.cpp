@@ -245,6 +245,7 @@ TEST_CASE("lint rules: a block number has the name that the form gives it") {
   std::size_t seen = 0;
   for (const fs::path& path : documents()) {
     const std::string id = path.stem().string();
+    if (id == "unknown-keyword") continue; // its subject is what the table of the language has
     INFO(id);
     for (const Example& example : Document(path).examples) {
       INFO(example.title);
