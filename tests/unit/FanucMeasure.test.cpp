@@ -72,8 +72,8 @@ TEST_CASE("fanuc measure: the selector is computed where the system is an argume
   checkProgram(out);
   CHECK(out.has("G65 P9811 X#24 S[#19-53]"));
   // Nothing confines G: our own alarm does.
-  CHECK(out.has("IF[#19 LT 54.]THEN #3000=109(WORK OFFSET NOT 54 TO 59)"));
-  CHECK(out.has("IF[#19 NE FIX[#19]]THEN #3000=109(WORK OFFSET NOT 54 TO 59)"));
+  CHECK(out.has("IF[#19 LT 54.]THEN #3000=109(NO SUCH WORK OFFSET)"));
+  CHECK(out.has("IF[#19 NE FIX[#19]]THEN #3000=109(NO SUCH WORK OFFSET)"));
 }
 
 TEST_CASE("fanuc measure: checks of the source that confine the system are not repeated") {

@@ -59,7 +59,7 @@ std::string without(std::string text, const std::string& from, const std::string
 TEST_CASE("convert: a work offset that the dialog computes is checked before the branch loads its tool") {
   for (const char* cycle : {"AL.Bossage.Trois", "AL.Epaisseur.Y"}) {
     const std::string text = converted({"origins", cycle, "fanuc", "inspection-plus"});
-    const std::size_t last = text.rfind("(WORK OFFSET NOT 54 TO 59)");
+    const std::size_t last = text.rfind("(NO SUCH WORK OFFSET)");
     REQUIRE(last != std::string::npos);
     CHECK(last < text.find("T30 M6"));
     CHECK(verified({"origins", cycle, "fanuc", "inspection-plus"}, text) == 0);
