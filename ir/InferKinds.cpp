@@ -73,12 +73,18 @@ private:
     return false;
   }
 
+  // A whole number that chooses a variable may turn out to be the offset that it belongs to.
+  static bool isOpen(Kind now, Kind given) {
+    return now == Kind::Number ||
+           (now == Kind::Count && (given == Kind::WorkOffset || given == Kind::ToolOffset));
+  }
+
   void spread(const Group& group) {
     for (const VariableId id : group.variables) {
-      if (id >= cycle_.variables.size() || cycle_.variables[id].kind != Kind::Number) continue;
+      if (id >= cycle_.variables.size() || !isOpen(cycle_.variables[id].kind, group.kind)) continue;
       cycle_.variables[id].kind = group.kind;
       for (const std::size_t other : groupsOf_[id]) {
-        if (groups_[other].kind != Kind::Number) continue;
+        if (!isOpen(groups_[other].kind, group.kind)) continue;
         groups_[other].kind = group.kind;
         open_.push_back(other);
       }

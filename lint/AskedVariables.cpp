@@ -25,7 +25,7 @@ std::uint32_t calledByCode(const ir::Word& word, const stdlib::Control* control)
   return 0;
 }
 
-// A code that is in no profile: a builder's, behind which any program may be.
+// A code that is in no profile: a builder's, which may call any program.
 bool mayCallAny(const ir::Word& word, const Project& project) {
   const double* code = ir::constantValue(word.value);
   if (word.address != 'G' || (code != nullptr && !(*code >= kFirstOfBuilder && *code < 1e6))) return false;

@@ -162,7 +162,8 @@ void Builder::lost(SourceRange range) {
     if (std::string name = word(); isName(name)) touch.name = Name{range, std::move(name)};
     const bool goesOn = word() == "else";
     if (goesOn) touch.otherwise = std::make_unique<Block>();
-    out.node = std::move(touch);
+    // Without a name after an arrow each word of the line may be the name.
+    if (touch.name || goesOn) out.node = std::move(touch);
     if (!goesOn) {
       add(std::move(out));
       return;
@@ -170,7 +171,9 @@ void Builder::lost(SourceRange range) {
   } else {
     text.remove_prefix(std::min(text.find_first_not_of(" \t"), text.size()));
     // A value that it was to give: what reads it is no further mistake.
-    if (isName(first) && text.starts_with('=') && !text.starts_with("=="))
+    const bool finds =
+        text.find("touch ") != std::string_view::npos || text.find("call ") != std::string_view::npos;
+    if (isName(first) && text.starts_with('=') && !text.starts_with("==") && !finds)
       out.node = Assign{{range, first}, missing()};
     add(std::move(out));
     return;

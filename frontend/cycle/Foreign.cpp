@@ -176,9 +176,10 @@ std::string commented(const Line& line) {
   if (line.at() == 0 && (first == "#" || first == "(" || dashes || star || first == "*"))
     return "a comment begins with `//`, and ends with its line";
   if (line.at() == 0 && first.size() > 1 && first[0] == '#')
-    return fmt::format("`{}` is a variable of a control, and a cycle has none; a value is given as `name = "
-                       "value`",
-                       first);
+    return fmt::format(
+        "`{0}` is a variable of a control, and a cycle has none; a value is given as `name = value`, "
+        "and a variable named for a result when it is converted: `--result NAME={0}`",
+        first);
   return "";
 }
 

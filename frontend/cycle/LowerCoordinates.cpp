@@ -68,8 +68,20 @@ public:
       return left != nullptr ? scaled(of(both->right), *left) : out;
     case ir::BinaryOp::Divide:
       return right != nullptr && *right != 0 ? scaled(of(both->left), 1 / *right) : out;
-    default: return out;
+    case ir::BinaryOp::Modulo:
+    case ir::BinaryOp::Direction:
+    case ir::BinaryOp::BitAnd:
+    case ir::BinaryOp::BitOr:
+    case ir::BinaryOp::BitXor:
+    case ir::BinaryOp::ValueOr:
+    case ir::BinaryOp::RoundedAnd:
+    case ir::BinaryOp::RoundedOr:
+    case ir::BinaryOp::RoundedXor:
+    case ir::BinaryOp::RoundedModulo:
+    case ir::BinaryOp::Power:
+    case ir::BinaryOp::Bearing: return out;
     }
+    return out;
   }
 
   static Weights sum(Weights a, const Weights& b, double factor) {

@@ -239,7 +239,6 @@ std::string foreignHabit(const antlr4::Token& offending, const antlr4::Token* be
   const bool afterNumber = before != nullptr && before->getType() == Lexer::NUMBER;
   if (offending.getType() == Lexer::OPEN_TEXT && afterNumber)
     return fmt::format("inches are written `in`: `{} in`", before->getText());
-  if (&head == &offending && text == "(") return "a comment begins with `//`; no statement begins with `(`";
   if (text.starts_with('[') || text.starts_with(']'))
     return "there are no lists; give each value a name of its own, or compute it in the loop";
   if (text.starts_with('^') || (text == "*" && before != nullptr && before->getText() == "*"))

@@ -71,7 +71,8 @@ TEST_CASE(
   const TestFolder folder("dotek-cycle-division");
   folder.write("one.cycle", "cycle one \"One\"\nparameter depth : length = 5 mm\nresult slope : ratio\n"
                             "spindle off\nprobe on\ntouch x by 10 mm -> right\ntouch x by -10 mm -> left\n"
-                            "probe off\ngap = right.at - left.at\nslope = 1 + depth / gap\n");
+                            "probe off\ngap = right.at - left.at\nslope = 1 + depth / gap\n"
+                            "if slope > 2 then\n  alarm \"Too steep\"\nend\n");
   const CommandResult result = runDotek(
       splitArguments("convert one.cycle --to mikroprog --control mikroprog-mill --host tool_radius=3 "
                      "--host clearance=50 --host overtravel=5 --host return_feed=500 --host start_x=0 "

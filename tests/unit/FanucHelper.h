@@ -196,7 +196,9 @@ struct Target {
 
   explicit Target(std::string_view set = "easyprobe", std::string_view name = "fanuc-0i-md")
       : control(loadControl(name)), source(loadControl("fanuc-0i-md")),
-        macros(loadMacros(set)), options{control, macros, source, 8000, {}, {}, {}, {}, false} {}
+        macros(loadMacros(set)), options{control, macros, source, 8000, {}, {}, {}, {}, false} {
+    options.source = &macros; // what a cycle states is a call of this set
+  }
   Target(const Target&) = delete;
   Target& operator=(const Target&) = delete;
 

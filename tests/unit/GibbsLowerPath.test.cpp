@@ -129,7 +129,8 @@ TEST_CASE("gibbs lower: touches at an angle") {
   CHECK(path("degrees\nto 0, 0, Z-plane\nto (a-r)*cos(30), (a-r)*sin(30), Z-plane\nto 0, 1, Z-plane\n"
              "z h-plane\n") == refused + "(a-r)*cos(30), (a-r)*sin(30), Z-plane");
   // The same with Z: whatever the defaults are, and through what is computed.
-  CHECK(path("to 0, 0, Z-plane\nto a, 0, b-plane\nto 0, 0, Z-plane\nz h-plane\n") == refused + "a, 0, b-plane");
+  CHECK(path("to 0, 0, Z-plane\nto a, 0, b-plane\nto 0, 0, Z-plane\nz h-plane\n") ==
+        refused + "a, 0, b-plane");
   CHECK(path("to 0, 0, Z-plane\nto 0, a-r, Z-3-plane\nto 0, 0, Z-plane\nz h-plane\n") ==
         refused + "0, a-r, Z-3-plane");
   CHECK(path("degrees\nto 0, 0, Z-plane\nto (a-r)*cos(30), 0, b+r*sin(30)-plane\nto 0, 1, h-plane\n")

@@ -68,7 +68,7 @@ TEST_CASE("preview: a value that the macro changes is named, and each move has a
                                      "add_custom_drill_cycle_path feed_z, 5\n");
   const driver::Outcome out = cycle.run();
   REQUIRE(out.status == 0);
-  CHECK_MESSAGE(holds(out.output, "shows as they were: B = 6"), out.output);
+  CHECK_MESSAGE(holds(out.output, "the path is drawn with those that no input holds: B = 6"), out.output);
   const std::size_t moves = out.output.find("<pre>");
   REQUIRE(moves != std::string::npos);
   CHECK_MESSAGE(out.output.find("-3", moves) < out.output.find('\n', moves), out.output.substr(moves));
