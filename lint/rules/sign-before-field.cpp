@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <string_view>
 
 namespace dotek::lint::rule {
 namespace {
@@ -65,6 +66,11 @@ bool isGuarded(const ProgPiece& value, const compost::Program& prog, const Proje
   return any;
 }
 
+// A work offset, a tool, an offset of a tool, a program: the number of something has no sign.
+bool isSelector(char letter) {
+  return std::string_view("GHLMNOPST").find(letter) != std::string_view::npos;
+}
+
 void check(const Project& project, Report& report) {
   eachRoutine(project, [&](const compost::Program& prog, const compost::Routine& routine) {
     if (prog.hasErrorNodes || !routine.returnRange) return; // told already
@@ -77,6 +83,17 @@ void check(const Project& project, Report& report) {
         const std::string& before = text.literal->text;
         if (before.size() < 2 || (before.back() != '-' && before.back() != '+')) continue;
         if (std::isalpha(static_cast<unsigned char>(before[before.size() - 2])) == 0) continue;
+        const char letter = before[before.size() - 2];
+        if (before.back() == '-' && isSelector(letter) && isGuarded(value, prog, project)) {
+          report
+              .at(value.range,
+                  "the text before this value ends in `{}-`, and the number of an offset, a tool or a "
+                  "program has no "
+                  "sign; take it out",
+                  letter)
+              .note(text.range, "the sign");
+          continue;
+        }
         if (isGuarded(value, prog, project)) continue;
         report
             .at(value.range,

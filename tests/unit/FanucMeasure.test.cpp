@@ -59,7 +59,8 @@ TEST_CASE("fanuc measure: a target becomes travel where the macro wants that") {
   std::get<ir::Measure>(cycle.cycle.body[1].node).target->frame = ir::Frame::Work;
   const Emission out = Target().emit(cycle.cycle);
   checkProgram(out);
-  CHECK(out.has("G65 P9023 S54. X[#24+10.] I#24"));
+  // The touch of the source ends beyond the surface by the overtravel of its macro.
+  CHECK_MESSAGE(out.has("G65 P9023 S54. X[[#24+10.]*[1.+10./ABS[#24+10.]]] I#24"), out.all());
 }
 
 TEST_CASE("fanuc measure: the selector is computed where the system is an argument") {

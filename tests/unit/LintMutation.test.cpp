@@ -248,7 +248,10 @@ std::optional<std::string> meaningOfProgram(const std::string& path) {
     line.erase(std::min(line.rfind(" ; "), line.size()));
     line.erase(line.find_last_not_of(' ') + 1);
     if (line.find("    comment ") == 0) continue;
-    out += line + "\n";
+    // 0 is 0 in every unit, and in a calculation a point adds nothing.
+    static const std::regex zero("([A-Z])0\\.(?![0-9])"), whole("([0-9])\\.(?![0-9])");
+    const bool computes = line.starts_with("    store ");
+    out += std::regex_replace(line, computes ? whole : zero, computes ? "$1" : "$010") + "\n";
   }
   return out;
 }
