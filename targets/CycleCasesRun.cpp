@@ -1,6 +1,7 @@
 // One case: both sides run, and what they did is compared.
 #include "support/Decimal.h"
 #include "support/messages/Verify.h"
+#include "targets/BesideBounds.h"
 #include "targets/CycleCasesParts.h"
 #include "targets/Stage.h"
 #include "targets/Target.h"
@@ -250,33 +251,18 @@ CaseResult CaseRunner::run(const verify::Case& drawn) {
   return result;
 }
 
-// Where a check of the dialog turns, and a step beside: what the dialog rejects then, the translation has to.
+// What the dialog rejects where one of its checks turns, the translation has to reject.
 void CaseRunner::runAtBounds(const verify::Case& drawn, CaseResult& result) {
-  if (plan_.bounds == nullptr) return;
-  for (const verify::Bound& bound : plan_.bounds->find(plan_.fields, {drawn}, true, UINT64_MAX)) {
-    const std::optional<verify::Case> met = plan_.bounds->meet(bound, plan_.fields, drawn, true);
-    if (!met) continue;
-    const verify::DrawField& field = plan_.fields[bound.field];
-    for (const int steps : {-1, 0, 1}) {
-      verify::Case beside = *met;
-      beside.callers = false;
-      double& value = beside.values[field.name];
-      value += steps * std::pow(10.0, -field.decimals);
-      if (!plan_.bounds->rejects(beside)) continue; // others are drawn
-      const std::unique_ptr<Values> values = check(beside, false);
-      if (stopped_) return;
-      if (!values || !values->rejected) continue;
-      values->part = emptyPart(zeroOf(beside));
-      sim::World world(*values->part, probeFor(plan_, beside));
-      TargetRun ran = runTarget(*values, world, false, nullptr);
-      if (ran.refused || ran.undecided || !ran.stopped.empty()) continue;
-      takeRun(result, std::move(ran), *values);
-      if (result.findings.empty()) continue;
-      for (CaseFinding& finding : result.findings)
-        finding.text = fmt::format("called with {} {}: {}", field.name, numberText(value), finding.text);
-      return;
-    }
-  }
+  runBesideBounds(plan_, drawn, result, [&](const verify::Case& beside) {
+    const std::unique_ptr<Values> values = check(beside, false);
+    if (stopped_) return false;
+    if (!values || !values->rejected) return true;
+    values->part = emptyPart(zeroOf(beside));
+    sim::World world(*values->part, probeFor(plan_, beside));
+    TargetRun ran = runTarget(*values, world, false, nullptr);
+    if (!ran.refused && !ran.undecided && ran.stopped.empty()) takeRun(result, std::move(ran), *values);
+    return true;
+  });
 }
 
 void CaseRunner::noteStopped(const TargetRun& ran, const verify::Case& drawn) {

@@ -1,5 +1,6 @@
 // Callers of a cycle that no case draws: other values than those of the case, and values that its checks
 // refuse.
+#include "targets/BesideBounds.h"
 #include "targets/CycleFileCasesParts.h"
 #include "targets/Stage.h"
 
@@ -53,30 +54,15 @@ bool CycleFileRunner::Questions::maySkip(const std::string& name) {
   });
 }
 
-// Where a check turns, and a step beside: what the cycle refuses the program has to refuse, with the same
-// text.
+// What the cycle refuses where one of its checks turns, the program has to refuse, with the same text.
 void CycleFileRunner::runAtBounds(const verify::Case& drawn, CaseResult& result) {
-  if (plan_.bounds == nullptr) return;
-  for (const verify::Bound& bound : plan_.bounds->find(plan_.fields, {drawn}, true, UINT64_MAX)) {
-    const std::optional<verify::Case> met = plan_.bounds->meet(bound, plan_.fields, drawn, true);
-    if (!met) continue;
-    const verify::DrawField& field = plan_.fields[bound.field];
-    for (const int steps : {-1, 0, 1}) {
-      verify::Case beside = *met;
-      beside.callers = false;
-      double& value = beside.values[field.name];
-      value += steps * std::pow(10.0, -field.decimals);
-      if (!plan_.bounds->rejects(beside)) continue; // others are drawn
-      const std::unique_ptr<Played> played = play(beside, false);
-      if (!played->rejected) continue;
-      const TargetRun ran = runTarget(*played, nullptr, nullptr);
-      if (ran.refused || ran.undecided || !ran.stopped.empty() || ran.differences.empty()) continue;
-      takeDifferences(result, ran);
-      for (CaseFinding& finding : result.findings)
-        finding.text = fmt::format("called with {} {}: {}", field.name, numberText(value), finding.text);
-      return;
-    }
-  }
+  runBesideBounds(plan_, drawn, result, [&](const verify::Case& beside) {
+    const std::unique_ptr<Played> played = play(beside, false);
+    if (!played->rejected) return true;
+    const TargetRun ran = runTarget(*played, nullptr, nullptr);
+    if (!ran.refused && !ran.undecided && ran.stopped.empty()) takeDifferences(result, ran);
+    return true;
+  });
 }
 
 } // namespace dotek::targets

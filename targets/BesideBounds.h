@@ -1,0 +1,38 @@
+// Cases where a check of the source turns, which are not drawn: a translation has to reject what the source
+// rejects.
+#pragma once
+
+#include "support/Decimal.h"
+#include "targets/Subject.h"
+
+#include <cmath>
+#include <cstdint>
+#include <fmt/format.h>
+#include <optional>
+
+namespace dotek::targets {
+
+// `run` gets each such case that the checks reject, at the bound and a step to either side, adds what it
+// finds to `result` and says whether to go on. The first that finds something is named and is the last.
+template <class Plan, class Run>
+void runBesideBounds(const Plan& plan, const verify::Case& drawn, CaseResult& result, const Run& run) {
+  if (plan.bounds == nullptr) return;
+  for (const verify::Bound& bound : plan.bounds->find(plan.fields, {drawn}, true, UINT64_MAX)) {
+    const std::optional<verify::Case> met = plan.bounds->meet(bound, plan.fields, drawn, true);
+    if (!met) continue;
+    const verify::DrawField& field = plan.fields[bound.field];
+    for (const int steps : {-1, 0, 1}) {
+      verify::Case beside = *met;
+      beside.callers = false;
+      double& value = beside.values[field.name];
+      value += steps * std::pow(10.0, -field.decimals);
+      if (!plan.bounds->rejects(beside)) continue; // others are drawn
+      const bool goOn = run(beside);
+      for (CaseFinding& finding : result.findings)
+        finding.text = fmt::format("called with {} {}: {}", field.name, numberText(value), finding.text);
+      if (!goOn || !result.findings.empty()) return;
+    }
+  }
+}
+
+} // namespace dotek::targets
