@@ -4,6 +4,7 @@
 #include <variant>
 
 namespace dotek::lint {
+namespace {
 
 std::set<std::string> printedWithPoint(const compost::Program& prog) {
   std::set<std::uint32_t> pictures;
@@ -16,6 +17,21 @@ std::set<std::string> printedWithPoint(const compost::Program& prog) {
     if (const auto* format = std::get_if<compost::FormatDirective>(&item))
       if (pictures.contains(format->number)) out.insert(format->name);
   return out;
+}
+
+} // namespace
+
+void eachPointedBlock(const Project& project,
+                      const std::function<void(const std::vector<ProgWord>& words,
+                                               const std::set<std::string>& pointed)>& visit) {
+  const compost::Program* last = nullptr;
+  std::set<std::string> pointed;
+  eachRoutine(project, [&](const compost::Program& prog, const compost::Routine& routine) {
+    if (last != &prog) pointed = printedWithPoint(prog);
+    last = &prog;
+    for (const ProgBlock& block : blocksOf(routine.body, prog, project))
+      if (!block.called) visit(wordsOf(block, nullptr), pointed);
+  });
 }
 
 } // namespace dotek::lint

@@ -1,37 +1,30 @@
 #include "lint/PointedPictures.h"
-#include "lint/ProgBlocks.h"
 
 #include <set>
+#include <string>
+#include <vector>
 
 namespace dotek::lint::rule {
 namespace {
 
 void check(const Project& project, Report& report) {
-  const compost::Program* last = nullptr;
-  std::set<std::string> pointed;
-  eachRoutine(project, [&](const compost::Program& prog, const compost::Routine& routine) {
-    if (last != &prog) pointed = printedWithPoint(prog);
-    last = &prog;
-    for (const ProgBlock& block : blocksOf(routine.body, prog, project)) {
-      if (block.called) continue;
-      const std::vector<ProgWord> words = wordsOf(block, nullptr);
-      const std::uint32_t program = macroCalled(words);
-      for (const stdlib::MacroSet& set : project.macroSets) {
-        const auto signatures = set.of(program);
-        if (signatures.empty()) continue;
-        for (const ProgWord& word : words) {
-          if (word.hole == nullptr || !pointed.contains(word.hole->word->name)) continue;
-          const stdlib::MacroArgument* argument = signatures.front()->find(word.address);
-          if (argument == nullptr || argument->role != stdlib::ArgumentRole::System) continue;
-          report.at(
-              word.hole->range,
-              "the number of a work offset is printed with the picture of lengths, as `{}56.`; macros that "
-              "compare it with whole numbers take that, others do not; give it a keyword with a picture of "
-              "its own",
-              word.address);
-        }
-        break;
+  eachPointedBlock(project, [&](const std::vector<ProgWord>& words, const std::set<std::string>& pointed) {
+    const std::uint32_t program = macroCalled(words);
+    for (const stdlib::MacroSet& set : project.macroSets) {
+      const auto signatures = set.of(program);
+      if (signatures.empty()) continue;
+      for (const ProgWord& word : words) {
+        if (word.hole == nullptr || !pointed.contains(word.hole->word->name)) continue;
+        const stdlib::MacroArgument* argument = signatures.front()->find(word.address);
+        if (argument == nullptr || argument->role != stdlib::ArgumentRole::System) continue;
+        report.at(
+            word.hole->range,
+            "the number of a work offset is printed with the picture of lengths, as `{}56.`; macros that "
+            "compare it with whole numbers take that, others do not; give it a keyword with a picture of "
+            "its own",
+            word.address);
       }
+      break;
     }
   });
 }
