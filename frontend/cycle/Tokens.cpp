@@ -231,21 +231,17 @@ const ForeignSign* foreignSignOf(std::string_view text) {
 // How a message begins whose fault is the first word of the line, whatever comes after it.
 constexpr std::string_view kNoStatement = "no statement begins with";
 
-// What hands write that know another language; "": none of these. `before`: the token before, `head`: the
-// first of the line.
-std::string foreignHabit(const antlr4::Token& offending, const antlr4::Token* before,
-                         const antlr4::Token& head) {
-  const std::string text = offending.getText(), first = head.getText();
+// What hands write that know another language; "": none of these. `before`: the token before.
+std::string foreignHabit(const antlr4::Token& offending, const antlr4::Token* before) {
+  const std::string text = offending.getText();
   const bool afterNumber = before != nullptr && before->getType() == Lexer::NUMBER;
   if (offending.getType() == Lexer::OPEN_TEXT && afterNumber)
     return fmt::format("inches are written `in`: `{} in`", before->getText());
   if (text.starts_with('[') || text.starts_with(']'))
     return "there are no lists; give each value a name of its own, or compute it in the loop";
-  if (text.starts_with('^') || (text == "*" && before != nullptr && before->getText() == "*"))
-    return "a power is a product: write `square(..)` or `a * a`";
   if (text.starts_with('&')) return "write `and`";
   if (text.starts_with('|')) return "write `or`";
-  if (first.starts_with('#') || text.starts_with('#'))
+  if (text.starts_with('#'))
     return "a cycle has no variables of the control; declare `result NAME : length`, and name the variable "
            "when it is converted: `--result NAME=#500`";
   const bool opens = before != nullptr && (before->getText() == "then" || before->getText() == "else");
@@ -278,7 +274,7 @@ std::string explain(const antlr4::Token& offending, const antlr4::Parser& parser
       last < offending.getTokenIndex() && input.get(last)->getChannel() == antlr4::Token::DEFAULT_CHANNEL
           ? input.get(last)
           : nullptr;
-  if (const std::string habit = foreignHabit(offending, before, head); !habit.empty()) return habit;
+  if (const std::string habit = foreignHabit(offending, before); !habit.empty()) return habit;
   if (type == Lexer::OPEN_TEXT) return "the text has no closing quote; write `\"` at its end";
   if (first + 1 >= input.size()) input.LT(2); // it may not have been read yet
   const size_t next = first + 1 < input.size() ? input.get(first + 1)->getType() : antlr4::Token::EOF;
