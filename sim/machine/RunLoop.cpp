@@ -34,7 +34,7 @@ bool Run::spend(std::uint32_t steps) {
     return true;
   }
   if (followed_ > steps && !asked_) {
-    asked_.emplace();
+    asked_ = AskedLoop();
     if ((asked_->edge = trail_->outermost())) watchLoop(*asked_);
     trail_->forget();
     fuel_ = followed_;
@@ -114,7 +114,7 @@ void Run::followLoop() {
 void Run::endInLoop() {
   const std::optional<LoopTrail::Edge> edge = trail_ ? trail_->outermost() : std::nullopt;
   if (!edge) return;
-  EndlessLoop& out = loop_.emplace();
+  EndlessLoop& out = *(loop_ = EndlessLoop());
   out.head = &headOf(edge->from);
   if (asked_ && asked_->edge == edge && asked_->rounds > 1 && !asked_->changes)
     for (const auto& [cell, value] : asked_->values)
