@@ -50,8 +50,8 @@ std::vector<ShownVariable> shownVariablesOf(const NamedTexts& given, const stdli
     if (!number || one.name.empty())
       wrong("it takes NUMBER=NAME or NUMBER=NAME=NOMINAL, as in `100=DIAMETER=30`");
     else if (!control.isCommon(*number))
-      wrong(fmt::format("#{} is no common variable of `{}`; a local one ends with its program, and offsets "
-                        "that are written are in the table by themselves",
+      wrong(fmt::format("#{} is no common variable of `{}`; a local one ends with its program, and work and "
+                        "tool offsets that are written are in the table by themselves",
                         *number, control.name));
     else if (sign != std::string::npos && !one.nominal)
       wrong("the expected value is no number");

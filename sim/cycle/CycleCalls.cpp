@@ -93,16 +93,15 @@ double CycleRun::toolValue(std::uint32_t tool, ir::ToolPart part) const {
 
 bool CycleRun::writeTool(std::uint32_t tool, ir::ToolPart part, double value) {
   if (isWear(part)) {
-    if (MotionWatcher* const watcher = machine_.watcher(); watcher != nullptr && !isLength(part))
-      watcher->offsetWritten({fmt::format("tool {} radius wear", tool), toolValue(tool, part), value});
     machine_.remark("tool-offset",
                     fmt::format("{} {} {}", tool, toolPartText(part), fixedText(value, kDecimals)));
     return machine_.write(variableOf(tool, part), value);
   }
   const bool radius = part == ir::ToolPart::Radius;
   machine_.writeTool(tool, radius, value);
-  return !radius ||
-         (machine_.write(variableOf(tool, part), value) && machine_.write(variableOf(tool, wearOf(part)), 0));
+  // Reported as one value; its parts are kept for what reads them.
+  return !radius || (machine_.preset(variableOf(tool, part), value) &&
+                     machine_.preset(variableOf(tool, wearOf(part)), 0));
 }
 
 bool CycleRun::setTool(const ir::CallCycle& node) {

@@ -65,9 +65,13 @@ void Machine::setWatcher(MotionWatcher* watcher) {
 }
 
 void Machine::startAt(const Position& machine) {
+  stopAt(machine);
+  at_ = machine;
+}
+
+void Machine::stopAt(const Position& machine) {
   for (std::size_t i = 0; i < kAxes; ++i)
     work_[i] = snap(machine[i] - offset_[i] - (i == 2 ? toolLength_ : 0));
-  at_ = machine;
 }
 
 Position Machine::machinePosition() const {

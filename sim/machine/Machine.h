@@ -85,6 +85,8 @@ public:
   void setWatcher(MotionWatcher* watcher);
   // Where the machine is before the program begins; without it all axes are at its zero.
   void startAt(const Position& machine);
+  // A motion that a watcher or the signal has ended comes no farther than here.
+  void stopAt(const Position& machine);
   MotionWatcher* watcher() const { return watcher_; }
   void setCallLimit(std::uint32_t calls) { callLimit_ = calls; }        // calls within calls
   void setBlockDelete(std::uint32_t levels) { deleteLevels_ = levels; } // bit n: the switch of `/n` is on
@@ -315,6 +317,7 @@ private:
 
   bool dwell(const ir::NcWords& words);
   bool dataInput(const ir::NcWords& words);
+  bool setRadius(std::uint32_t tool, bool wear, double value, bool add);
   bool localShift(const ir::NcWords& words);
   bool setPosition(const ir::NcWords& words);
   bool limitsSpindle(const ir::NcWords& words) const; // its S is no speed, but the limit of G92 S
@@ -367,6 +370,8 @@ private:
   bool findState(std::uint32_t number, Place& place) const;
   std::optional<double> readState(std::uint32_t number, const Place& place);
   bool writeState(std::uint32_t number, const Place& place, double value, bool preset);
+  // Of a State: it holds a tool's radius, true: the wear of it.
+  std::optional<bool> radiusIn(const Place& place) const;
   bool store(std::uint32_t number, double value, bool preset);
   std::uint32_t windowBytes(const Place& place) const; // 0: the address lies outside
 

@@ -253,6 +253,7 @@ bool Machine::reference(const NcWords& w, bool first) {
       }
     }
     if (to != at_ || lost != lost_) tellTo(MotionKind::Rapid, to, lost);
+    if (!running()) return true;
   }
   for (std::size_t i = 0; i < kAxes; ++i) {
     if (!has(w, i)) continue;

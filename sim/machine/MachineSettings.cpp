@@ -2,7 +2,9 @@
 #include "sim/machine/Axes.h"
 #include "sim/machine/Machine.h"
 #include "sim/machine/Measurement.h"
+#include "sim/machine/Place.h"
 #include "sim/machine/Refusals.h"
+#include "stdlib/RadiusOffsets.h"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -278,11 +280,11 @@ bool Machine::dataInput(const NcWords& w) {
     return true;
   }
   if (kind && (*kind == 1 || (*kind >= 10 && *kind <= 13))) {
-    if (*kind >= 12) return inconclusive("Dotek does not keep offsets of the tool's radius", 'L');
     if (*number == 0 || *number >= tools_.size())
       return inconclusive(fmt::format("`{}` has tool offsets up to {}", control_->name, tools_.size() - 1),
                           'P');
     if (!w.has('R') || (w.present & kAxisBits) != 0) return inconclusive("a tool offset takes R", 'G');
+    if (*kind >= 12) return setRadius(*number, *kind == 13, lengthOf(w, 'R'), add);
     double& value = *kind == 10 ? tools_[*number].geometry : tools_[*number].wear;
     const double before = value;
     value = snap((add ? value : 0) + lengthOf(w, 'R'));
@@ -294,6 +296,26 @@ bool Machine::dataInput(const NcWords& w) {
     return true;
   }
   return inconclusive("what it sets is not known to Dotek", 'L');
+}
+
+// L12: geometry; L13: wear.
+bool Machine::setRadius(std::uint32_t tool, bool wear, double value, bool add) {
+  const stdlib::RadiusOffsets radii = stdlib::radiusOffsets(*control_);
+  const std::optional<int> first = wear ? radii.wear : radii.geometry;
+  Place place;
+  if (!first || !find(static_cast<std::uint32_t>(*first) + tool, place) || place.kind != Place::Kind::State)
+    return inconclusive(
+        fmt::format("the profile of `{}` names no variables with offsets of a tool's radius", control_->name),
+        'L');
+  double& offset = state_[place.index];
+  const double before = offset;
+  offset = snap((add ? offset : 0) + value);
+  if (watcher_ != nullptr)
+    watcher_->offsetWritten(
+        {fmt::format("tool {} radius {}", tool, wear ? "wear" : "geometry"), before, offset});
+  if (trace_ != nullptr)
+    trace_->begin("tool-offset").text(fmt::format("L{} P{}", wear ? 13 : 12, tool)).word("", offset).end();
+  return true;
 }
 
 bool Machine::localShift(const NcWords& w) {

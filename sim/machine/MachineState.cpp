@@ -1,5 +1,6 @@
 // System variables that the machine only keeps, and the window into the memory of the PMC.
 #include "sim/machine/Place.h"
+#include "stdlib/RadiusOffsets.h"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -37,6 +38,12 @@ bool Machine::findState(std::uint32_t number, Place& place) const {
   else
     return false;
   return true;
+}
+
+std::optional<bool> Machine::radiusIn(const Place& place) const {
+  const std::string& title = control_->state[place.axis].title;
+  if (title == stdlib::kRadiusWearTitle) return true;
+  return title == stdlib::kRadiusGeometryTitle ? std::optional(false) : std::nullopt;
 }
 
 std::vector<double> Machine::snapshot() const {

@@ -135,12 +135,12 @@ bool Machine::inInches(const Place& place) const {
   case Kind::ToolLength:
   case Kind::Wear:
   case Kind::Geometry: return true;
+  case Kind::State: return radiusIn(place).has_value();
   case Kind::Word: return place.index == slotOf('F');
   case Kind::Modal:
   case Kind::Timer:
   case Kind::Hours:
   case Kind::ExtendedNumber:
-  case Kind::State:
   case Kind::StateWord:
   case Kind::WindowAddress:
   case Kind::Window:
@@ -318,6 +318,12 @@ bool Machine::store(std::uint32_t number, double value, bool preset) {
   case Kind::StateWord:
   case Kind::WindowAddress:
   case Kind::Window:
+    if (const std::optional<bool> wear = place.kind == Kind::State ? radiusIn(place) : std::nullopt) {
+      const std::uint32_t tool = number - control_->state[place.axis].first + 1;
+      set(state_[place.index],
+          [&] { return fmt::format("tool {} radius {}", tool, *wear ? "wear" : "geometry"); });
+      return true;
+    }
     if (!writeState(number, place, given, preset)) return false;
     if (auto* const outside = dynamic_cast<SystemWatcher*>(watcher_); outside != nullptr && !preset)
       outside->systemWritten(number, given);

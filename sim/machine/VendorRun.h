@@ -72,6 +72,8 @@ private:
   bool finish();
   bool addExperience();
   bool checkTolerances();
+  Measurement foundHere() const;
+  std::optional<Machine::WorkSystem> systemGiven() const; // by the call, which names one; nothing: unknown
   bool setSystem();
   bool setTool();
   void writeResults();

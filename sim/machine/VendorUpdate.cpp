@@ -30,6 +30,11 @@ std::optional<std::uint32_t> whole(double value) {
   return static_cast<std::uint32_t>(value);
 }
 
+// The number that a call gives for G54.
+std::uint32_t firstNumber(const stdlib::MacroArgument& chosen) {
+  return chosen.systemCode == SystemCode::GNumber ? kFirstSystem : 1;
+}
+
 } // namespace
 
 bool VendorRun::finish() {
@@ -42,7 +47,7 @@ bool VendorRun::finish() {
     found_[Output::OutOfTolerance] = 0;
     found_[Output::ProbeError] = missed_ ? kNoContact : 0;
     if (MotionWatcher* const watcher = machine_.watcher(); watcher != nullptr && !missed_)
-      watcher->measured(measurementOf(signature_, locals_, found_));
+      watcher->measured(foundHere());
   }
   if (!checkTolerances()) return false;
   writeResults();
@@ -50,6 +55,19 @@ bool VendorRun::finish() {
   if (const auto print = value(Role::Print)) machine_.remark("print", fmt::format("{:g}", *print));
   machine_.forgetMotion(feed_);
   return true;
+}
+
+// What the call says of a coordinate counts in the system that it sets, what was measured in the active one.
+Measurement VendorRun::foundHere() const {
+  Measurement out = measurementOf(signature_, locals_, found_);
+  const auto set = argument(Role::System) == nullptr ? std::nullopt : systemGiven();
+  if (!set || *set == machine_.activeSystem()) return out;
+  for (const ir::Axis axis : ir::kAxes) {
+    if (argument(Role::Nominal, axis) == nullptr) continue;
+    for (MeasuredValue& one : out.values)
+      if (one.name == std::string_view(&kAxisLetters[ir::indexOf(axis)], 1)) one.nominal.reset();
+  }
+  return out;
 }
 
 // The value of a tool offset is added to the measured size.
@@ -116,24 +134,32 @@ std::optional<std::uint32_t> VendorRun::offsetVariable(std::uint32_t system, boo
   return static_cast<std::uint32_t>(*v.workOffsetX + static_cast<int>(system) * v.systemStep + step);
 }
 
+std::optional<Machine::WorkSystem> VendorRun::systemGiven() const {
+  const stdlib::MacroArgument& chosen = *argument(Role::System);
+  const auto number = whole(*value(Role::System));
+  if (!number) return std::nullopt;
+  if (chosen.extendedFirst != 0 && *number >= chosen.extendedFirst && *number <= chosen.extendedLast)
+    return Machine::WorkSystem{*number - chosen.extendedFirst + 1, true};
+  const std::uint32_t first = firstNumber(chosen);
+  if (*number < first || *number >= first + kSystems) return std::nullopt;
+  return Machine::WorkSystem{*number - first, false};
+}
+
 // New value = offset in force + measured - expected: right for both rules, since only what is expected
 // differs.
 bool VendorRun::setSystem() {
   const auto* chosen = argument(Role::System);
   if (chosen == nullptr) return true;
-  const auto number = whole(*value(Role::System));
-  const std::uint32_t first = chosen->systemCode == SystemCode::GNumber ? kFirstSystem : 1;
-  const bool extended = number && chosen->extendedFirst != 0 && *number >= chosen->extendedFirst &&
-                        *number <= chosen->extendedLast;
-  if (!number || (!extended && (*number < first || *number >= first + kSystems)))
+  const auto given = systemGiven();
+  if (!given) {
+    const std::uint32_t first = firstNumber(*chosen);
     return meaningless(
         fmt::format("which work offset this number names is in no source; {} to {} are G54 to G59", first,
                     first + kSystems - 1),
         chosen->letter);
-  const std::uint32_t system = extended ? *number - chosen->extendedFirst + 1 : *number - first;
-  const bool activeExtended = machine_.mode(kSystem) == kExtended;
-  const auto active = activeExtended ? static_cast<std::uint32_t>(machine_.extendedSystem())
-                                     : static_cast<std::uint32_t>(machine_.mode(kSystem));
+  }
+  const auto [system, extended] = *given;
+  const auto [active, activeExtended] = machine_.activeSystem();
   for (const ir::Axis axis : ir::kAxes) {
     const auto& error = error_[ir::indexOf(axis)];
     if (!error) continue;

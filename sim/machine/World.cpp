@@ -34,6 +34,7 @@ void World::restart(std::uint64_t seed) {
 
 Point3 World::centreAt(const Position& position) const {
   if (const CuttingTool* tool = cuttingTool()) return {position[0], position[1], position[2] - tool->length};
+  if (isUnknownTool()) return {position[0], position[1], position[2] - lengthInForce_};
   return {position[0], position[1], position[2] - probe_.centreLength()};
 }
 
@@ -182,8 +183,13 @@ std::optional<double> World::contact(const SkipMove& move) {
     // A bent stem opens the contact, too.
     if (hit->outcome == Outcome::StemCollision && on_) signal = stop = share;
   }
-  if (const auto leaves = leavesTravel(move.machineFrom, move.machineTo); leaves && leaves->share < stop)
+  const auto leaves = leavesTravel(move.machineFrom, move.machineTo);
+  if (leaves && leaves->share < stop) {
+    // The control stops the machine there: the move comes to no end, and looks for nothing any more.
     addLeaving(*leaves, kKind, from, way);
+    pressed_ = blocked;
+    return std::nullopt;
+  }
   if (!touch) {
     if (!blocked) add(Outcome::Miss, kKind, 1, to).meant = move.positions;
   } else if (blocked && touch->share > stop) {
@@ -302,7 +308,8 @@ void reportEvent(const ProbeEvent& event, SourceRange range, Diagnostics& diagno
   }
   case Outcome::SetterMiss: diagnostics.report<diag::SetterMiss>(range, centre); return;
   case Outcome::SetterHit:
-    diagnostics.report<diag::SetterCollision>(range, event.what, centre, depth);
+    diagnostics.report<diag::SetterCollision>(range, event.what, at(event.centre - Point3{0, 0, event.below}),
+                                              depth);
     return;
   case Outcome::NotModelled:
     if (event.placeUnknown)

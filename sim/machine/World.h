@@ -52,6 +52,7 @@ struct ProbeEvent {
   double reached = 0, limit = 0;
   std::string_view what;  // of SetterHit: "a rapid move", ...
   std::uint32_t tool = 0; // of NotModelled: this tool is in no list of the machine
+  double below = 0;       // of SetterHit: from the centre to the lowest point
 };
 
 // Coordinates of the machine are those of the spindle's gauge line, with the probe pointing along -Z. Rapids
@@ -90,6 +91,9 @@ public:
   const CuttingTool* cuttingTool() const { return devices_.find(tool_); }
   // A tool is in the spindle that is neither the probe nor one of the machine's file.
   bool isUnknownTool() const;
+  // Of such a tool the program's own length is all that is known, 0 or more: the one in force.
+  void setLengthInForce(double length) { lengthInForce_ = length; }
+  CuttingTool unknownTool() const { return {tool_, lengthInForce_, 0}; }
 
 private:
   std::optional<Touch> touchOf(double radius, const Point3& from, const Point3& to);
@@ -124,6 +128,7 @@ private:
   MachineLimits limits_;
   Devices devices_;
   std::uint32_t tool_ = 0;
+  double lengthInForce_ = 0;
   bool on_;
   std::uint64_t lastLine_ = 0; // of the last motion
   bool pressed_ = false;       // the last motion ended in the part, which was reported

@@ -24,6 +24,7 @@ ProbeEvent& World::addSetter(Outcome outcome, MotionKind kind, const SetterTouch
   event.point = touch.point;
   event.normal = touch.normal;
   event.depth = (1 - touch.share) * way.length();
+  event.below = cuttingTool() == nullptr ? probe_.ballRadius() : 0;
   return event;
 }
 
@@ -40,8 +41,10 @@ std::optional<double> World::toolContact(const SkipMove& move) {
     signal = touch->share + devices_.setter->preTravel / length;
   if (signal && *signal > 1) signal.reset();
   const double stop = signal.value_or(1);
-  if (const auto leaves = leavesTravel(move.machineFrom, move.machineTo); leaves && leaves->share < stop)
+  if (const auto leaves = leavesTravel(move.machineFrom, move.machineTo); leaves && leaves->share < stop) {
     addLeaving(*leaves, kKind, from, way);
+    return std::nullopt;
+  }
   if (!touch) {
     add(Outcome::SetterMiss, kKind, 1, to).meant = move.positions;
   } else if (!devices_.setter->triggers[touch->direction]) {

@@ -2,6 +2,8 @@
 
 #include "sim/picture/PictureRegion.h"
 
+#include "support/Decimal.h"
+
 #include <cmath>
 #include <fmt/format.h>
 
@@ -36,6 +38,15 @@ double reachAt(const Picture& picture, std::size_t move) {
   const std::size_t tool = move < picture.moves.size() ? picture.moves[move].tool : 0;
   if (tool > 0 && tool <= picture.tools.size()) return picture.tools[tool - 1].length;
   return hasProbe(picture) ? picture.probe.centreLength() : 0;
+}
+
+std::string toolNote(const PictureTool& tool, int decimals) {
+  const std::string path = fmt::format("with tool {} it is that of the", tool.number);
+  if (tool.listed) return path + " tool's end";
+  return fmt::format("{} {}: no list has the tool, so neither its size nor what it meets is shown", path,
+                     tool.length > 0
+                         ? fmt::format("end by the length in force, {}", fixedText(tool.length, decimals))
+                         : std::string("spindle's gauge line"));
 }
 
 Point3 gaugeAt(const Picture& picture, const Point3& point, std::size_t move) {

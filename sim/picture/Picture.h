@@ -41,6 +41,10 @@ struct PictureFrame {
   std::uint8_t unknown = 0; // axes, by bits, of which the place in the machine is not known either
 };
 
+struct PictureTool : CuttingTool {
+  bool listed = true; // false: only the length that the program has in force is known, 0 without one
+};
+
 struct PictureContact {
   Point3 point; // of the part
   std::size_t move = 0;
@@ -108,7 +112,7 @@ struct Picture {
   Probe probe;
   bool probeStated = false;         // also where its length is 0, as of a control that counts at the tip
   std::optional<ToolSetter> setter; // of the machine
-  std::vector<CuttingTool> tools;   // that were in the spindle, the probe aside
+  std::vector<PictureTool> tools;   // that were in the spindle, the probe aside
   std::vector<PictureMove> moves;   // in the order of the run
   std::vector<PictureContact> contacts;
   std::vector<PictureError> errors;
@@ -129,6 +133,9 @@ std::optional<Point3> workAt(const Picture& picture, const Point3& point, std::s
 // From the point of a move up to the gauge line: of the probe's ball, or of the tool that is in the spindle;
 // 0 without either.
 double reachAt(const Picture& picture, std::size_t move);
+
+// What the path is while this tool is in the spindle.
+std::string toolNote(const PictureTool& tool, int decimals);
 
 // By error: "E1", "E2", and "M1", "M2" of misses.
 std::vector<std::string> errorNames(const Picture& picture);

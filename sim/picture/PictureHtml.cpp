@@ -107,6 +107,8 @@ private:
                                     [](const PictureMove& move) { return !isDrawn(move); });
     if (lost > 0) note(fmt::format("moves without a number, or beyond 1 km: {}; they are not drawn", lost));
     if (!hasProbe(picture_)) note("no probe is stated: the path is that of the spindle's gauge line");
+    for (const PictureTool& tool : picture_.tools)
+      if (!tool.listed) note("the path: " + toolNote(tool, picture_.decimals));
     if (!picture_.part) note("no part: only the path is drawn");
     if (picture_.setter) note("tool setter at machine " + pointText(picture_.setter->at, picture_.decimals));
     if (const std::string cut = cutNote(picture_, region_); !cut.empty()) note(cut);
@@ -168,9 +170,9 @@ private:
                              number(std::isfinite(probe.centreLength()) ? probe.centreLength() : 0));
     out += "\"tools\":[";
     for (std::size_t i = 0; i < picture_.tools.size(); ++i)
-      out +=
-          fmt::format("{}[{},{},{}]", i == 0 ? "" : ",", picture_.tools[i].number,
-                      number(size(picture_.tools[i].length)), number(size(picture_.tools[i].diameter / 2)));
+      out += fmt::format("{}[{},{},{},{}]", i == 0 ? "" : ",", picture_.tools[i].number,
+                         number(size(picture_.tools[i].length)), number(size(picture_.tools[i].diameter / 2)),
+                         picture_.tools[i].listed ? 1 : 0);
     out += "],\n";
     out += picture_.setter && isDrawn(picture_.setter->at)
                ? fmt::format("\"setter\":{{\"at\":[{}],\"radius\":{}}},\n", numbers(picture_.setter->at),

@@ -62,13 +62,17 @@ std::size_t PictureRecorder::frameNow() {
 }
 
 std::size_t PictureRecorder::toolNow() {
-  const CuttingTool* const tool = world_ == nullptr ? nullptr : world_->cuttingTool();
-  if (tool == nullptr) return 0;
-  std::vector<CuttingTool>& tools = picture_.tools;
-  const auto found = std::find_if(tools.begin(), tools.end(),
-                                  [&](const CuttingTool& one) { return one.number == tool->number; });
+  if (world_ == nullptr) return 0;
+  const bool unknown = world_->isUnknownTool();
+  const CuttingTool* const listed = world_->cuttingTool();
+  if (listed == nullptr && !unknown) return 0;
+  const PictureTool tool{listed != nullptr ? *listed : world_->unknownTool(), !unknown};
+  std::vector<PictureTool>& tools = picture_.tools;
+  const auto found = std::find_if(tools.begin(), tools.end(), [&](const PictureTool& one) {
+    return one.number == tool.number && one.length == tool.length;
+  });
   const auto place = static_cast<std::size_t>(found - tools.begin());
-  if (found == tools.end()) tools.push_back(*tool);
+  if (found == tools.end()) tools.push_back(tool);
   return place + 1;
 }
 
@@ -121,12 +125,26 @@ void PictureRecorder::missNotSeen(std::size_t move, const Point3& at, const std:
   error->fault = true;
 }
 
-void PictureRecorder::faultHere(const std::string& text) {
+// The control stops the machine where its travel ends.
+void PictureRecorder::endAtTravel(std::size_t from) {
+  for (std::size_t i = from; i < world_->events().size(); ++i) {
+    const ProbeEvent& event = world_->events()[i];
+    if (event.outcome != Outcome::OutsideTravel) continue;
+    PictureMove& move = picture_.moves.back();
+    move.to = move.from + (move.to - move.from) * event.share;
+    return;
+  }
+}
+
+void PictureRecorder::faultHere(const std::string& text, std::optional<Point3> at) {
   if (full_) return;
   const double nan = std::nan("");
   const bool moved = !picture_.moves.empty();
-  PictureError error{moved ? picture_.moves.back().to : Point3{nan, nan, nan}, text,
-                     moved ? picture_.moves.size() - 1 : 0, placeOf(block_())};
+  PictureError error{at      ? *at
+                     : moved ? picture_.moves.back().to
+                             : Point3{nan, nan, nan},
+                     text, at || !moved ? picture_.moves.size() : picture_.moves.size() - 1,
+                     placeOf(block_())};
   error.fault = true;
   picture_.errors.push_back(std::move(error));
 }
@@ -166,6 +184,7 @@ void PictureRecorder::moved(const MachineMotion& motion) {
   if (world_ == nullptr) return;
   const std::size_t before = world_->events().size();
   world_->moved(motion);
+  if (!full_) endAtTravel(before);
   addEvents(before, picture_.moves.empty() ? 0 : picture_.moves.size() - 1);
 }
 
@@ -183,7 +202,7 @@ void PictureRecorder::finish(const RunFacts& facts, std::vector<PictureMeasured>
   picture_.measured = std::move(measured);
   picture_.result = resultOf(picture_, facts);
   const std::string why = endingText(facts);
-  if (why.empty()) return;
+  if (why.empty() || isSaidByTravel(facts)) return;
   const std::size_t move = picture_.moves.empty() ? 0 : picture_.moves.size() - 1;
   // Without a move the place is not known; no number is not drawn.
   const double nan = std::nan("");

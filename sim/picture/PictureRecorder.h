@@ -45,7 +45,7 @@ public:
   // The program has not seen that this skip move met nothing; `text` says so.
   void missNotSeen(std::size_t move, const Point3& at, const std::string& text);
   // A finding of the run at the block that runs; where the machine is, or where its last motion ended.
-  void faultHere(const std::string& text);
+  void faultHere(const std::string& text, std::optional<Point3> at = std::nullopt);
   // The last miss was an approach: it is no error.
   void missWasApproach();
   void addList(PictureList list) { picture_.lists.push_back(std::move(list)); }
@@ -63,6 +63,7 @@ public:
   const Picture& picture() const { return picture_; }
 
 private:
+  void endAtTravel(std::size_t from); // the last move, by the events of the world from the `from`-th on
   void addEvents(std::size_t from, std::size_t move, bool isProtected = false);
   std::size_t placeOf(PictureBlock block); // in Picture::blocks
   std::size_t frameNow();

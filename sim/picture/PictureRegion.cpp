@@ -218,7 +218,10 @@ Region regionOf(const Picture& picture) {
   if (picture.part) {
     Region seen = reachOf(*picture.part);
     const Region both = box(seen, focus);
-    if (longest(both) > std::max(kWholePart, kWholeShare * longest(focus))) {
+    const bool apart = isEmpty(common(seen, near));
+    if (apart && longest(both) < kDrawn / 10) {
+      // What went wrong far from the part is seen beside it.
+    } else if (longest(both) > std::max(kWholePart, kWholeShare * longest(focus))) {
       // A side that ends near by is shown whole; of one that does not, a piece is enough.
       const Region piece = grown(focus, std::max(15.0, 0.3 * longest(focus)));
       for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -99,6 +99,10 @@ std::string endingText(const RunFacts& facts) {
   return fmt::format("{}: {}", end.word, end.text);
 }
 
+bool isSaidByTravel(const RunFacts& facts) {
+  return count(facts, {Outcome::OutsideTravel}) > 0 && facts.end.text.ends_with("OVER-TRAVEL");
+}
+
 PictureResult resultOf(const Picture& picture, const RunFacts& facts) {
   PictureResult out = endOf(facts);
   const bool ended = out.word == "PASS";
@@ -118,9 +122,8 @@ PictureResult resultOf(const Picture& picture, const RunFacts& facts) {
   if (fault != nullptr && (out.verdict == Verdict::Fail || (!ended && fault->verdict != Verdict::Fail)))
     fault = nullptr;
   if (crashed) {
-    // The alarm of the over-travel is no second one.
-    const bool same = travel > 0 && facts.end.text.ends_with("OVER-TRAVEL");
-    const std::string then = ended || same ? "" : fmt::format("; then {}", endingText(facts));
+    const std::string then =
+        ended || isSaidByTravel(facts) ? "" : fmt::format("; then {}", endingText(facts));
     out.verdict = Verdict::Fail;
     out.word = collisions > 0 ? "COLLISION" : travel > 0 ? "OVER-TRAVEL" : "PROBE FAULT";
     // What happened; the list of errors has the rest of the sentence, what to do.

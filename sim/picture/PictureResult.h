@@ -36,6 +36,8 @@ PictureResult resultOf(const Picture& picture, const RunFacts& facts);
 
 // What stopped the run, one line: an error of the picture. "": the program came to its end.
 std::string endingText(const RunFacts& facts);
+// The run ended with the alarm of an over-travel, which is an error of the picture already.
+bool isSaidByTravel(const RunFacts& facts);
 
 // "X1.000 Y-2.500 Z0.000"; "?" for what is no number.
 std::string pointText(const Point3& p, int decimals);

@@ -170,8 +170,9 @@ std::string drawLegend(const Sheet& sheet, double left, double top, double& bott
                                               shortNumber(finite(picture.probe.ballDiameter), 3))
                                 : "the path is that of the spindle's gauge line: no probe is stated",
               0, "#4a525c");
-  for (const CuttingTool& tool : picture.tools)
-    legend.text(fmt::format("with tool {} it is that of the tool's end", tool.number), 0, "#4a525c");
+  for (const PictureTool& tool : picture.tools)
+    for (const std::string& line : wrapped(toolNote(tool, picture.decimals), 60))
+      legend.text(line, 0, tool.listed ? "#4a525c" : "#8a4b00");
   if (const std::optional<WorkZero> zero = workZeroOf(picture)) {
     // Mikroprog has one system, which has no number.
     legend.text(zero->name == "work"

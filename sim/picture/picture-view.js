@@ -91,6 +91,7 @@ function makeView(canvas, data) {
   const probeBodies = makeProbe(), toolBodies = new Map(); // by number
   function bodiesOf(tool) {
     if (tool === undefined) return probeBodies;
+    if (!tool.listed) return []; // what it looks like is not known
     if (!toolBodies.has(tool.number))
       toolBodies.set(tool.number, [turned([[0, 0], [tool.radius, 0], [tool.radius, tool.length], [0, tool.length]], [148, 158, 170])]);
     return toolBodies.get(tool.number);
@@ -426,7 +427,7 @@ function makeView(canvas, data) {
       paint.globalAlpha = radius === 0 || isHidden(p[0], p[1], p[2] + radius) ? 0.9 : 0.25;
       paint.setLineDash([]);
       paint.lineWidth = 1.6;
-      paint.strokeStyle = move.on ? "#b87400" : theme.dim;
+      paint.strokeStyle = move.on && move.tool === undefined ? "#b87400" : theme.dim;
       paint.beginPath(); paint.arc(p[0], p[1], Math.max(3, radius * camera.zoom), 0, 7); paint.stroke();
     }
     drawScale();

@@ -31,7 +31,7 @@ window.onerror = (message, source, line) => {
   for (const [first, count, frame] of data.framed) for (let i = 0; i < count; ++i) frameOf[first + i] = frame;
 
   for (const [first, count, tool] of data.spindle)
-    for (let i = first; i < first + count; ++i) moves[i].tool = { number: data.tools[tool][0], length: data.tools[tool][1], radius: data.tools[tool][2] };
+    for (let i = first; i < first + count; ++i) moves[i].tool = { number: data.tools[tool][0], length: data.tools[tool][1], radius: data.tools[tool][2], listed: data.tools[tool][3] === 1 };
 
   const canvas = byId("view"), slider = byId("slider"), list = byId("blocks");
   const view = makeView(canvas, data);
@@ -144,9 +144,10 @@ window.onerror = (message, source, line) => {
       byId("work-" + name).textContent = work === null ? "?" : number(work[i]);
     });
     byId("work-name").textContent = nameOf(current) === "work" ? "work" : "work " + nameOf(current);
-    byId("what").textContent = move.tool === undefined ? "ball's centre" : "end of tool " + move.tool.number;
+    byId("what").textContent = move.tool === undefined ? "ball's centre" : move.tool.listed ? "end of tool " + move.tool.number :
+      "tool " + move.tool.number + ", in no list: " + (move.tool.length > 0 ? "its end by the length in force, " + number(move.tool.length) : "the gauge line");
     byId("kind").textContent = data.kinds[move.kind].name;
-    byId("power").textContent = move.on ? "on" : "off";
+    byId("power").textContent = move.tool !== undefined ? "not in the spindle" : move.on ? "on" : "off";
     byId("count").textContent = "move " + (move.number + 1) + " of " + data.count;
     const here = byId("here"), contact = contactOf.get(current), error = errorOf.get(current);
     here.textContent = "";

@@ -23,6 +23,7 @@ void MeasuredLog::add(PictureMeasured one) {
 void MeasuredLog::callBegins(std::uint32_t /*program*/, std::span<const double> locals) {
   if (!now_.block) return;
   if (missedAt_ && calls_.size() < *missedAt_) missedAt_.reset();
+  touch_ = {}; // a touch of this call is no second one of a call before it
   calls_.push_back(
       {{locals.begin(), locals.end()}, now_.block(), now_.system(), entries_.size(), std::nullopt});
 }

@@ -28,12 +28,12 @@ std::string signedText(double value, int decimals) {
 
 } // namespace
 
-void SimWorld::addFault(Diagnostic diagnostic, Verdict verdict, std::string_view word,
-                        const RunPlace& place) {
+void SimWorld::addFault(Diagnostic diagnostic, Verdict verdict, std::string_view word, const RunPlace& place,
+                        std::optional<Point3> at) {
   faults_.push_back({verdict, std::string(word), diagnostic.message.substr(0, diagnostic.message.find(';'))});
   if (!faultsTold_.insert({diagnostic.code, place.range.begin}).second || faultsTold_.size() > kMostFaults)
     return;
-  if (recorder_) recorder_->faultHere(diagnostic.message);
+  if (recorder_) recorder_->faultHere(diagnostic.message, at);
   constexpr std::size_t kMostCalls = 8;
   for (std::size_t i = 0; i < place.calls.size() && i < kMostCalls; ++i)
     diagnostic.note(place.calls[place.calls.size() - 1 - i], "called here");
@@ -82,7 +82,8 @@ void SimWorld::offsetWritten(const OffsetWrite& write) {
   const double inForce = std::abs(machineNow_->toolLength());
   const double moved = write.after - write.before;
   const bool zero = write.name.ends_with(" Z");
-  if (!zero && !write.name.starts_with("tool ")) return;
+  // No length is in what a radius is set to.
+  if (!zero && (!write.name.starts_with("tool ") || write.name.find(" radius") != std::string::npos)) return;
   // Of a system that nobody had set the part says where its zero is.
   const bool beside = zero && partZero_ && isLength(write.after - (*partZero_)[2], inForce);
   if (moved == 0 || (!isLength(moved, inForce) && !beside)) return;

@@ -39,7 +39,10 @@ void SimWorld::checkEdge(const ProbeEvent& event, const RunPlace& place) {
   Point3 ahead = searchWay_;
   if (ahead.length() == 0) return;
   ahead = ahead * (1 / ahead.length());
-  const double off = reach - way.dot(ahead);
+  // The signal comes where a ball of the effective radius would touch.
+  const double across = std::sqrt(std::max(0.0, reach * reach - way.dot(ahead) * way.dot(ahead)));
+  const double radius = std::min(reach, world_->probe().effectiveRadius);
+  const double off = radius - std::sqrt(std::max(0.0, radius * radius - across * across));
   constexpr double kLeastOff = 0.001; // mm; at the edge itself it is right
   if (off < kLeastOff) return;
   // One depth is one cause: further places are notes of the first.
@@ -53,7 +56,7 @@ void SimWorld::checkEdge(const ProbeEvent& event, const RunPlace& place) {
     return;
   }
   addFault(makeDiagnostic<diag::EdgeTouched>(place.range, fixedText(off, decimals_)), Verdict::Doubt,
-           "PASS, AN EDGE TOUCHED", place);
+           "PASS, AN EDGE TOUCHED", place, event.centre);
 }
 
 // A face that lies too high was cut by a tool that is longer than its offset says. The expected height is in

@@ -218,6 +218,7 @@ void SimWorld::attach(Machine& machine) {
   blocks_ = [&machine] { return machine.blocks(); };
   stop_ = [&machine](std::string why) { machine.inconclusive(std::move(why)); };
   alarm_ = [&machine](std::string text) { machine.raiseUnnumbered(text); };
+  stopAt_ = [&machine](const Position& at) { machine.stopAt(at); };
   end_ = [&machine] { return machine.end(); };
   frame_ = [&machine] { return frameOf(machine); };
   work_ = [&machine] {
@@ -274,6 +275,8 @@ std::optional<double> SimWorld::contact(const SkipMove& move) {
   world_->setLine(line_());
   if (device_ != nullptr) device_->touchBegins();
   const SkipMove real = shifted(move);
+  takeLength();
+  motion_ = {move.machineFrom, move.machineTo};
   const std::optional<double> share = recorder_ ? recorder_->contact(real) : world_->contact(real);
   if (device_ != nullptr && share) {
     Position at{};
@@ -297,6 +300,8 @@ bool SimWorld::isThere(const SkipMove& here) {
 void SimWorld::moved(const MachineMotion& motion) {
   if (isBesideItsPath()) return;
   if (device_ != nullptr) device_->moved(motion.from, motion.to);
+  if (motion.kind != MotionKind::Skip) motion_ = {motion.from, motion.to};
+  takeLength();
   if (recorder_)
     recorder_->moved(shifted(motion));
   else if (world_)
@@ -313,6 +318,11 @@ void SimWorld::moved(const MachineMotion& motion) {
     log_.touched(work_(), way);
   }
   takeEvents();
+}
+
+void SimWorld::takeLength() {
+  if (world_ && machineNow_ != nullptr && world_->isUnknownTool())
+    world_->setLengthInForce(std::max(0.0, machineNow_->toolLength()));
 }
 
 void SimWorld::probeSwitched(bool on) {
@@ -403,6 +413,10 @@ void SimWorld::take(const ProbeEvent& event, const RunPlace& place) {
     tell(event, place);
   if (event.outcome != Outcome::OutsideTravel || endedOutside_ || !alarm_) return;
   endedOutside_ = true;
+  Position at;
+  for (std::size_t i = 0; i < kAxes; ++i)
+    at[i] = motion_.from[i] + (motion_.to[i] - motion_.from[i]) * event.share;
+  stopAt_(at);
   alarm_(fmt::format("{}{} OVER-TRAVEL", kAxisLetters[event.axis], event.reached > event.limit ? '+' : '-'));
 }
 

@@ -185,6 +185,7 @@ private:
   bool takeBall(const Setup& given);
   bool loadFiles(const Setup& given);
   bool isBesideItsPath(); // by cutter compensation, where that matters: the run has ended
+  void takeLength();      // of a tool that is in no list
   bool isActive() const { return world_.has_value() || picture_ || device_ != nullptr; }
   void begin();
   void checkSystem(); // that somebody has set the work system that the probe measures in
@@ -212,7 +213,8 @@ private:
   SkipMove shifted(const SkipMove& move) const;
   MachineMotion shifted(const MachineMotion& motion) const;
   // SimFaults.cpp: what is wrong though nothing touches.
-  void addFault(Diagnostic diagnostic, Verdict verdict, std::string_view word, const RunPlace& place);
+  void addFault(Diagnostic diagnostic, Verdict verdict, std::string_view word, const RunPlace& place,
+                std::optional<Point3> at = std::nullopt); // of the ball, in the move that runs
   void checkSpindle();
   void stopSpindle();
   void checkLength(const MachineMotion& motion);
@@ -289,6 +291,11 @@ private:
   int decimals_ = 3;
   std::function<void(std::string)> stop_;  // ends the run as inconclusive
   std::function<void(std::string)> alarm_; // ends it with an alarm of the control
+  std::function<void(const Position&)> stopAt_;
+  struct Motion {
+    Position from{}, to{};
+  };
+  Motion motion_; // that runs, as the machine reports it
   bool endedOutside_ = false;
   bool startTold_ = false;
   Position start_{}; // of the machine

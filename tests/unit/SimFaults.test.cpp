@@ -4,6 +4,7 @@
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 
@@ -125,6 +126,43 @@ TEST_CASE("faults: an over-travel ends the run, once") {
   CHECK_FALSE(holds(out.err, "LATER"));
   CHECK(holds(bench.svg, ">OVER-TRAVEL<"));
   CHECK_FALSE(holds(bench.svg, "; then"));
+}
+
+TEST_CASE("faults: the machine stops where its travel ends, in a skip move and in others") {
+  Bench bench("dotek-faults-travel-end");
+  bench.folder.write("machine.toml",
+                     "schema = 1\n[setup]\nwork_offset = { G54 = \"part\" }\n[travel]\nx = [-600.0, 20.0]\n"
+                     "[probe]\ntool = 9\nball_diameter = 4\nlength = 131.4\nlength_to = \"tip\"\non = "
+                     "true\novertravel = 4\n");
+  const auto ends = [&](const std::string& move) {
+    bench.folder.write("m.nc", kBegin + "G43 H9 Z100.\n" + move + "\n#100=1.\nM30\n");
+    const CommandResult out = bench.run("--json");
+    CAPTURE(out.err);
+    const nlohmann::json summary = nlohmann::json::parse(out.out);
+    CHECK_FALSE(holds(out.err, "miss"));
+    CHECK(holds(bench.svg, "0 misses"));
+    CHECK_FALSE(holds(out.out, "\"outcome\": \"miss\""));
+    CHECK(holds(bench.svg, ">OVER-TRAVEL<"));
+    CHECK_FALSE(holds(bench.svg, ">E2<")); // the alarm is the over-travel
+    return summary["machine"]["X"].get<double>();
+  };
+  CHECK(ends("G91 G31 X900. F300") == 20);
+  CHECK(ends("G0 X950.") == 20);
+  CHECK(ends("G91 G1 X900. F500") == 20);
+  CHECK(ends("G53 G0 X33.") == 20);
+}
+
+TEST_CASE("faults: a tool that is in no list is not drawn as the probe") {
+  Bench bench("dotek-faults-tool-unknown");
+  bench.folder.write("machine.toml",
+                     "schema = 1\n[setup]\nwork_offset = { G54 = \"part\" }\n[probe]\ntool = 9\n"
+                     "ball_diameter = 4\nlength = 131.4\nlength_to = \"tip\"\non = true\novertravel = 4\n");
+  bench.folder.write("m.nc", "O1\nT9 M6\nG90 G21 G54 G0 X5. Y5.\nG43 H9 Z20.\nG91 G28 Z0\nG90\nT3 M6\n"
+                             "G0 X5. Y5.\nG43 H3 Z7.\nM30\n");
+  bench.run("--var 2203=80 --control fanuc-31i-b");
+  CHECK(holds(bench.svg, "with tool 3 it is that of the end by the length in force"));
+  CHECK(holds(bench.svg, "80.000: no list has the tool"));
+  CHECK(holds(bench.html, "with tool 3 it is that of the end by the length in force, 80.000"));
 }
 
 TEST_CASE("faults: a macro that is called leaves its rotation to the caller") {

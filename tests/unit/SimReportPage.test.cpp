@@ -106,6 +106,54 @@ TEST_CASE("sim report: --show takes common variables alone") {
   CHECK(has(runDotek({"sim", "c.cycle", "--show", "131=D"}, run.folder_.path()).err, "`--show` is for"));
 }
 
+TEST_CASE("sim report: each touch of a cycle has a row of its own, at its line") {
+  Run run("dotek-report-touches");
+  run.folder_.write("two.cycle",
+                    "cycle two \"Two\"\n\nresult p : length \"p\"\n\nprobe on\n"
+                    "touch x by 10 mm -> side\ntouch x by 10 mm -> side\nprobe off\np = side.at\n");
+  const CommandResult out = runDotek({"sim", "two.cycle"}, run.folder_.path());
+  CAPTURE(out.out);
+  CHECK(has(out.out, "two.cycle:6"));
+  CHECK(has(out.out, "two.cycle:7"));
+}
+
+TEST_CASE("sim report: a coordinate that another system gets is no nominal value of the active one") {
+  Run run("dotek-report-other-system");
+  run.folder_.write("part.toml",
+                    "schema = 1\n[[shape]]\nkind = \"box\"\nmin = [-50.0, -50.0, -20.0]\n"
+                    "max = [100.0, 100.0, 0.0]\n[[shape]]\nkind = \"hole\"\nat = [25.0, 40.0, 0.0]\n"
+                    "through = true\nradius = 12.0\n");
+  const auto bore = [&](const std::string& system) {
+    return run("O7\nG90 G21 G54\nG0 X25. Y40.\nG0 Z-5.\nG65 P9023 I0 J0 D24. S" + system + "\nM30\n",
+               {"--control", "fanuc-31i-b", "--probe-macros", "easyprobe"})
+        .out;
+  };
+  CAPTURE(bore("55."));
+  CHECK(has(bore("55."), "25.000            -"));
+  CHECK_FALSE(has(bore("55."), "+25.000\n"));
+  CHECK(has(bore("54."), "+25.000\n"));
+}
+
+TEST_CASE("sim report: radii of tools that are written are in the table, by variable and by G10") {
+  Run run("dotek-report-radii");
+  const auto written = [&](const std::string& blocks) {
+    const CommandResult out =
+        run("O7\nG90 G21\n" + blocks + "\nM30\n", {"--control", "fanuc-31i-b", "--var", "12005=0.02"});
+    CAPTURE(out.err);
+    CHECK(out.status == 0);
+    return out.out + run.read("p.svg");
+  };
+  CHECK(has(written("#12005=#12005-0.05"), "tool 5 radius wear set from 0.020 to -0.030"));
+  CHECK(has(written("#13005=6."), "tool 5 radius geometry set from 0.000 to 6.000"));
+  CHECK(has(written("G10 L13 P5 R0.04"), "tool 5 radius wear set from 0.020 to 0.040"));
+  CHECK(has(written("G91 G10 L13 P5 R0.04"), "tool 5 radius wear set from 0.020 to 0.060"));
+  CHECK(has(written("G10 L12 P5 R5.5\n#11005=#13005*2"), "tool 5 geometry set from 0.000 to 11.000"));
+  // Under G20 they are inches, as other offsets are.
+  CHECK(has(written("G20\n#13005=0.25\nG21"), "tool 5 radius geometry set from 0.000 to 6.350"));
+  run("O7\nG10 L12 P5 R5.5\nM30\n", {"--control", "fanuc-0i-md"});
+  CHECK(has(run.pages(), "names no variables with offsets of a tool&#39;s radius"));
+}
+
 TEST_CASE("sim report: what the program prints is on both pictures") {
   Run run("dotek-report-printed");
   const CommandResult one = run("O7\n#101=12.5\nPOPEN\nDPRNT[BORE*A*X#101[53]]\nDPRNT[END]\nPCLOS\nM30\n",
@@ -151,6 +199,13 @@ TEST_CASE("sim report: a ball that meets an edge is reported, and the run is no 
   CHECK(has(edge.err, "[edge-touched]"));
   CHECK(has(edge.err, "0.172 mm farther")); // 3 - sqrt(9 - 1)
   CHECK(has(run.read("p.svg"), ">PASS, AN EDGE TOUCHED<"));
+  // What is measured is off by what the effective radius makes of it.
+  run.folder_.write("machine.toml", std::string(kMachine) + "effective_radius = 2.95\n");
+  CHECK(has(at("-2.").err, "0.175 mm farther")); // 2.95 - sqrt(2.95^2 - 1)
+  run.folder_.write("machine.toml", kMachine);
+  at("-2.");
+  // The mark is where the ball was, and not where the move began.
+  CHECK(has(run.read("p.svg"), "G54 X-2.828 Y50.000 Z-2.000"));
   CHECK_FALSE(has(at("-3.01").err, "edge"));
   CHECK(has(run.read("p.html"), "<strong>PASS</strong>"));
   // The rim of a bore, and its wall, which is bent.

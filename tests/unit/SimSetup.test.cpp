@@ -379,7 +379,7 @@ TEST_CASE("setup: pictures count from the end of the tool in the spindle") {
   CHECK(runIn(scratch, run).status == 0);
   const std::string svg = readAll(scratch / "run.svg"), page = readAll(scratch / "run.html");
   CHECK(svg.find("with tool 5 it is that of the tool") != std::string::npos);
-  CHECK(page.find("\"tools\":[[5,82.4,5]]") != std::string::npos);
+  CHECK(page.find("\"tools\":[[5,82.4,5,1]]") != std::string::npos);
   CHECK(page.find("\"spindle\":[[0,2,0]]") != std::string::npos);
   // Where the run stops: the gauge line at 0, not higher by the probe's greater length.
   scratch.write("m.nc", "O1\nG90 G54 G0 X0 Y0\nG53 G0 Z0\n#3000=1(STOP)\n");
