@@ -50,38 +50,73 @@ public:
     }
   }
 
+  // Before the program moves by itself: what the source switches off first.
+  void settleFirst() {
+    const auto& list = s_.cycle.body;
+    bool spindle = false, coolant = false; // the first switch was seen
+    std::string_view after;                // what the source has before it
+    for (std::size_t i = 0; i < list.size() && !s_.failed; ++i) {
+      if (ir::probes(list[i]))
+        after = "probe move";
+      else if (std::holds_alternative<ir::Move>(list[i].node) && after.empty())
+        after = "move";
+      const std::optional<Switch> found = switchOf(list[i]);
+      if (!found || std::exchange(found->turns ? spindle : coolant, true) || !found->off) continue;
+      (found->turns ? spindleOff_ : coolantOff_) = true;
+      if (!after.empty()) {
+        writeBefore(i, *found, after);
+        continue;
+      }
+      s_.done.insert(&list[i]);
+      one(list[i], i);
+    }
+  }
+
 private:
+  struct Switch {
+    bool turns = false; // the spindle, else the coolant
+    bool off = false;
+  };
+  static std::optional<Switch> switchOf(const ir::CycleStatement& statement) {
+    return match(
+        statement,
+        [](const ir::Spindle& node) {
+          return std::optional(Switch{true, node.state == ir::Spindle::State::Off});
+        },
+        [](const ir::Coolant& node) {
+          return std::optional(Switch{false, node.state == ir::Coolant::State::Off});
+        },
+        [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Move, ir::Measure, ir::CallCycle,
+                           ir::ProbePower, ir::Comment, ir::Assign, ir::Return, ir::SetMode, ir::Dwell,
+                           ir::Stop, ir::Alarm, ir::OpaqueBlock> auto&) { return std::optional<Switch>(); });
+  }
+
+  // The switch at `index` of the body, before what the source has before it.
+  void writeBefore(std::size_t index, const Switch& one, std::string_view what) {
+    const ir::CycleStatement& statement = s_.cycle.body[index];
+    s_.diagnostics.report<diag::MovedBefore>(statement.origin.range(),
+                                             s_.code(one.turns ? "spindle-off" : "coolant-off"), what);
+    s_.done.insert(&statement);
+    this->one(statement, index);
+  }
+
   // Spindle and coolant at rest before the first probe move, at `first`: what the source writes after it
   // comes before it.
   void settle(std::size_t first) {
     const auto& list = s_.cycle.body;
-    bool spindle = false, coolant = false; // switched off
+    bool spindle = spindleOff_, coolant = coolantOff_; // switched off
     for (std::size_t i = 0; i < list.size(); ++i) {
-      std::optional<bool> off; // of a switch of the spindle or the coolant
-      bool turns = false;
-      match(
-          list[i],
-          [&](const ir::Spindle& node) {
-            off = node.state == ir::Spindle::State::Off;
-            turns = true;
-          },
-          [&](const ir::Coolant& node) { off = node.state == ir::Coolant::State::Off; },
-          [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Move, ir::Measure, ir::CallCycle,
-                             ir::ProbePower, ir::Comment, ir::Assign, ir::Return, ir::SetMode, ir::Dwell,
-                             ir::Stop, ir::Alarm, ir::OpaqueBlock> auto&) {});
-      if (!off) continue;
-      bool& settled = turns ? spindle : coolant;
+      const std::optional<Switch> found = switchOf(list[i]);
+      if (!found) continue;
+      bool& settled = found->turns ? spindle : coolant;
       if (i < first) {
-        settled = *off;
+        settled = found->off;
         continue;
       }
       if (settled) continue;
-      if (!*off) break;
+      if (!found->off) break;
       settled = true;
-      s_.diagnostics.report<diag::MovedBefore>(list[i].origin.range(),
-                                               s_.code(turns ? "spindle-off" : "coolant-off"));
-      s_.done.insert(&list[i]);
-      one(list[i], i);
+      writeBefore(i, *found, "probe move");
     }
     const auto missing = [&](bool settled, bool turns) {
       if (settled) return;
@@ -310,7 +345,8 @@ private:
 
   State& s_;
   bool probed_ = false;
-  std::string stopText_; // comments of the block of the next stop
+  bool spindleOff_ = false, coolantOff_ = false; // by settleFirst()
+  std::string stopText_;                         // comments of the block of the next stop
 };
 
 // Above all that lies between, in the coordinates of the source, where it is known at which Z the operator
@@ -334,13 +370,17 @@ void retractFirst(State& state) {
   protectedMove(state, move, made("up to the clearance plane"));
 }
 
-// Modes and the path to the start point.
-void writeBeginning(State& state) {
+void writeModes(State& state) {
   const ir::Origin origin = made("beginning");
   const bool mill = state.control.hasAxis('Y');
   state.sheet.add(fmt::format("{} {} {}", state.code(mill ? "plane-xy" : "plane-zx"), state.code("absolute"),
                               state.code("feed-per-minute")),
                   origin);
+}
+
+// The path to the start point. Where its height is known, spindle and coolant rest and contact is asked for
+// before anything moves.
+void writeStart(State& state, Body& body) {
   std::string words;
   for (const ir::Axis axis : ir::kAxes) {
     const auto given = state.options.hosts.find(fmt::format("start_{}", "xyz"[ir::indexOf(axis)]));
@@ -370,6 +410,7 @@ void writeBeginning(State& state) {
         "give a `--host start_z` that is not below the clearance, or a clearance that is not above the "
         "start");
   if (height) {
+    body.settleFirst();
     guard(state, made("contact before anything moves"));
     retractFirst(state);
   }
@@ -383,14 +424,14 @@ void numberSheets(State& state, std::vector<EmittedLine>& out) {
   const ir::Origin none = made("end of the program");
   if (tails) state.sheet.jump(jump, state.end, "", none);
   Sheet notFound, collision, end;
-  // Up, once the operator has read it and goes on. Before a datum and after it, so the higher of the two.
+  // Up, once the operator has read it and goes on. Before each datum and after it, so the highest of them.
   const std::optional<double> height = safeHeight(state);
   const bool retracts = height && state.options.hosts.contains("return_feed");
   const auto retract = [&](Sheet& sheet) {
     if (!retracts) return;
-    const double shift = std::max(0.0, state.axes[ir::indexOf(ir::Axis::Z)].shift);
     const double top = std::max(*height, state.highest.value_or(*height));
-    sheet.add(fmt::format("{} {} F{}", state.code("feed"), axisWord(state, ir::Axis::Z, top + shift, {}),
+    sheet.add(fmt::format("{} {} F{}", state.code("feed"),
+                          axisWord(state, ir::Axis::Z, top + state.raised, {}),
                           numberWord(state, state.host("return_feed"), {})),
               made("up after a stop"));
   };
@@ -476,8 +517,10 @@ std::optional<std::vector<EmittedLine>> emit(const ir::Cycle& cycle, const EmitO
   state.notFound = state.mark();
   state.collision = state.mark();
   state.end = state.mark();
-  writeBeginning(state);
-  Body(state).write();
+  writeModes(state);
+  Body body(state);
+  writeStart(state, body);
+  body.write();
   if (state.failed) return std::nullopt;
   if (!cycle.measurementStated)
     state.remarks.push_back("THE SOURCE IS A PATH: CONTACTS ARE RECORDED, NOTHING IS SET");

@@ -3,6 +3,7 @@
 #include "ir/Linear.h"
 #include "support/Decimal.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -61,6 +62,7 @@ void shiftSystem(State& state, ir::Axis axis, double face, double nominal, const
   now.datum = true;
   now.shift = sum(nominal, -face);
   if (std::abs(now.shift) < 1e-9) now.shift = 0;
+  if (axis == ir::Axis::Z) state.raised = std::max(state.raised, now.shift);
   if (now.shift == 0 && !state.remarked.insert("corrected").second) return;
   const std::string by =
       now.shift == 0 ? ""

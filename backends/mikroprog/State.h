@@ -58,6 +58,7 @@ struct State {
   std::array<AxisState, 3> axes;
   std::array<std::optional<double>, 3> start; // where the cycle begins, in the coordinates of the source
   std::optional<double> highest;              // Z that the program goes to, in the coordinates of the source
+  double raised = 0;                          // by how much Z counts more after a datum, at most; mm
   std::optional<double> feed;                 // in force in the source, mm/min
   bool guarded = false;                       // O7 was asked since the last stop
   std::size_t guards = 0, probeMoves = 0;

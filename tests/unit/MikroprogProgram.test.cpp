@@ -239,6 +239,35 @@ TEST_CASE("mikroprog: spindle and coolant rest before the first probe move, or a
   CHECK(both.find("branch") == std::string::npos);
 }
 
+TEST_CASE("mikroprog: where the start is known, all is off before anything moves") {
+  Maker maker;
+  maker.cycle.name = "after";
+  maker.move(ir::Motion::Rapid, ir::Axis::X, number(20));
+  maker.add(ir::Spindle{});
+  maker.move(ir::Motion::Protected, ir::Axis::Z, number(50));
+  maker.add(ir::Coolant{});
+  MikroprogTarget target;
+  target.options.hosts["start_z"] = 60;
+  const auto emission = target.emit(maker.cycle);
+  const std::vector<std::string> blocks = emission.blocks();
+  REQUIRE(blocks.size() > 5);
+  CHECK(std::vector<std::string>(blocks.begin() + 1, blocks.begin() + 6) ==
+        std::vector<std::string>{"M5", "M9", "G23 L910 O7", "G0 X-10 Y10", "G0 X20"});
+  CHECK_FALSE(emission.codes().contains("spindle-not-stopped"));
+  std::string said;
+  for (const Diagnostic& one : emission.diagnostics.all())
+    said += one.message + "\n";
+  CHECK(said.find("M5 comes before the first move;") != std::string::npos);
+  CHECK(said.find("M9 comes before the first probe move;") != std::string::npos);
+  // What turns first is the source's own business.
+  Maker turning;
+  turning.cycle.name = "turning";
+  turning.add(ir::Spindle{ir::Spindle::State::Clockwise, number(100)});
+  turning.add(ir::Spindle{});
+  turning.move(ir::Motion::Protected, ir::Axis::Z, number(50));
+  CHECK(target.emit(turning.cycle).blocks()[1] == "G23 L910 O7");
+}
+
 TEST_CASE("mikroprog: what a program needs of the operation") {
   SurfaceCycle cycle;
   const auto mill = loadMikroprog("mikroprog-mill"), lathe = loadMikroprog("mikroprog-s280");

@@ -166,16 +166,18 @@ TEST_CASE("mikroprog: a known start below the clearance plane goes up before any
     MikroprogEmission out = target.emit(cycle.cycle);
     return out;
   };
-  // Contact is asked for, then up to 5, then across.
+  // All is off and contact is asked for, then up to 5, then across.
   const std::vector<std::string> low = blocks(2).blocks();
-  REQUIRE(low.size() > 5);
-  CHECK(low[1] == "G23 L910 O7");
-  CHECK(low[2].starts_with("G31 Z5 L"));
-  CHECK(low[3] == "G27 L910");
-  CHECK(low[4] == "G0 X-10 Y10");
+  REQUIRE(low.size() > 7);
+  CHECK(low[1] == "M5");
+  CHECK(low[2] == "M9");
+  CHECK(low[3] == "G23 L910 O7");
+  CHECK(low[4].starts_with("G31 Z5 L"));
+  CHECK(low[5] == "G27 L910");
+  CHECK(low[6] == "G0 X-10 Y10");
   const std::vector<std::string> high = blocks(60).blocks();
-  CHECK(high[1] == "G23 L910 O7");
-  CHECK(high[2] == "G0 X-10 Y10");
+  CHECK(high[3] == "G23 L910 O7");
+  CHECK(high[4] == "G0 X-10 Y10");
   CHECK(blocks(60).text().find("BE Z60") != std::string::npos);
   // Not known: the header says where the operator begins.
   CHECK(blocks(std::nullopt).blocks()[1] == "G0 X-10 Y10");

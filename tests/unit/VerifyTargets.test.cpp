@@ -122,7 +122,7 @@ TEST_CASE("a damaged program of Mikroprog never agrees") {
       {"N90 G27 L910", "N90 M9"},                   // contact goes on
       {"N90 G27 L910", "N90 G27 L100"},             // the same by a jump
       {"G23 L910 O7", "G23 L990 O7"},               // contact before the chain ends without a word
-      {"N20 G23 L910 O7", "N20 M9"},                // nobody asks for it
+      {"N40 G23 L910 O7", "N40 M9"},                // nobody asks for it
       {"N900 M0 ;SONDA NENASLA PLOCHU", "N900 M9"}, // no tail
       {"N906 G27 L990", "N906 G27 L60"},            // the tail goes back to work
       {"N903 G1 Z", "N903 G1 X"},                   // the tail goes aside
