@@ -83,6 +83,11 @@ private:
       out_.parts.back().marks.push_back(*now()->mark);
   }
 
+  void takeMove(const Piece& piece) {
+    Gathered::Parts& parts = out_.parts.back();
+    parts.moves.push_back({parts.touches.size(), piece});
+  }
+
   // Opposite walls that are touched from outside: the probe goes over them and down beside them.
   static bool isOutside(const Measure& like) {
     if (like.nominal.size() < 2) return false;
@@ -96,6 +101,8 @@ private:
     for (std::size_t i = pieces.size(); i-- > 0 && pieces[i].kind == PathKind::Protected;) {
       if (!near(pieces[i].from, like.start, middle_)) continue;
       begin();
+      for (std::size_t way = i; way + 1 < pieces.size(); ++way) // without the new measure's own
+        out_.parts.back().moves.push_back({0, pieces[way]});
       const Piece measuring{PathKind::Measuring, pieces[i].from,      pieces[i].from,
                             pieces.back().with,  pieces.back().range, {}};
       pieces.resize(i);
@@ -122,7 +129,7 @@ private:
       else if (now()->mark != nullptr)
         takeMarks();
       else if (comesOff(*now()->piece))
-        ++next_;
+        takeMove(*now()->piece), ++next_;
       else
         break;
     }
@@ -153,6 +160,7 @@ private:
         return end;
       }
       if (!comesOff(piece) || sides == 1) break;
+      takeMove(piece);
       at = piece.to;
       left = true;
     }

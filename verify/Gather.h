@@ -10,9 +10,16 @@ namespace dotek::verify {
 
 struct Gathered {
   Record record; // with one measure for each call of the other program; what no call makes are measures, too
-  // Of each measure: the skip moves that make it, and what the program does beside moving until it goes on.
+  // A move of a measure beside its touches, after the first `touches` of them.
+  struct Between {
+    std::size_t touches = 0;
+    Piece piece;
+  };
+  // Of each measure: the skip moves that make it, the moves before, between and after them that no straight
+  // path back is, and what the program does beside moving until it goes on.
   struct Parts {
     std::vector<Measure> touches;
+    std::vector<Between> moves;
     std::vector<Mark> marks;
   };
   std::vector<Parts> parts;

@@ -141,6 +141,11 @@ struct IdleMove {
   SourceRange range;
 };
 
+// A question whether the probe is in contact, by what had come before it.
+struct Question {
+  std::size_t pieces = 0, marks = 0;
+};
+
 // The probe is switched: what is in force there, as of Piece, and what is on before.
 struct SwitchCall {
   std::uint32_t program = 0; // of the macro; 0: by a code
@@ -184,8 +189,9 @@ struct Record {
   Surroundings before, after; // what is on at entry and at the end
   bool pathMoved = false;     // by a datum (Stand::Way::MovePath)
   // Skip moves of a length that ran: bare ones that look for a surface, bare ones and macros that are to meet
-  // nothing; calls that measure; and questions whether the probe is in contact.
-  std::size_t searches = 0, protectedMoves = 0, calls = 0, guards = 0;
+  // nothing; and calls that measure.
+  std::size_t searches = 0, protectedMoves = 0, calls = 0;
+  std::vector<Question> questions;
   // What had come before the first thing after what was asked for (Interference.h): pieces and marks;
   // nothing: it did not come to that.
   std::optional<std::pair<std::size_t, std::size_t>> disturbed;

@@ -104,7 +104,10 @@ std::optional<double> Recorder::placedContact(const sim::SkipMove& move, double 
 }
 
 bool Recorder::isThere(const sim::SkipMove& here) {
-  if (interference_.touching == record_.guards++) {
+  if (rehearsal_) return false;
+  const std::size_t number = record_.questions.size();
+  record_.questions.push_back({record_.pieces.size(), record_.marks.size()});
+  if (interference_.touching == number) {
     disturb(0);
     return true;
   }

@@ -1,9 +1,10 @@
 #include "backends/mikroprog/TargetCompare.h"
 
+#include "backends/mikroprog/TargetFrame.h"
+#include "backends/mikroprog/TargetWay.h"
 #include "stdlib/MacroSet.h"
 #include "support/Decimal.h"
 #include "verify/Gather.h"
-#include "verify/Interference.h"
 
 #include <algorithm>
 #include <charconv>
@@ -59,13 +60,16 @@ std::array<std::optional<double>, 3> coordinatesIn(const std::string& text, cons
 // What each measure of the program was meant for and has set, as the macro's call says it.
 class Meaning {
 public:
-  Meaning(const MikroprogFacts& facts) : facts_(facts), zero_(facts.zero) {}
+  // `tolerance`: of places, mm.
+  Meaning(const MikroprogFacts& facts, double tolerance)
+      : facts_(facts), tolerance_(tolerance), zero_(facts.zero) {}
 
   std::vector<verify::Difference> own; // what the common rules do not ask for
 
   void read(Measure& want, Measure& got, const verify::Gathered::Parts& parts, bool stopped) {
     const bool bore = isMiddle(want);
     middle_ = bore;
+    sets_ = !facts_.byOperator && !want.datums.empty();
     nominals(want, got, parts, bore);
     if (stopped) { // only what was looked for is compared
       want.nominal.resize(std::min(want.nominal.size(), got.nominal.size()));
@@ -77,6 +81,8 @@ public:
       centresOnly(want.contacts);
       centresOnly(got.contacts);
     }
+    if (auto off = wayFault(want, parts, {facts_.ballRadius, tolerance_, bore, sets_}))
+      own.push_back(std::move(*off));
     datums(want, got, parts);
     records(want, parts, bore);
   }
@@ -107,14 +113,14 @@ private:
         touch.point = touch.point + touch.direction * facts_.ballRadius;
         const std::size_t axis = axisOf(touch.direction);
         Point3 found = search.end + touch.direction * facts_.ballRadius;
-        if (i % 2 == 1 && !facts_.byOperator) part(touch.point, axis) -= beside;
+        if (i % 2 == 1 && sets_) part(touch.point, axis) -= beside;
         if (i % 2 == 0) beside = part(found, axis) - part(want.nominal[i].point, axis);
         if (axis == 0 && i < want.contacts.size())
           middle +=
               (want.contacts[i].centre.x + touch.direction.x * facts_.ballRadius - want.nominal[i].point.x) /
               2;
         // After the first datum of a bore the ball is in the middle along X.
-        if (i > 1 && !want.datums.empty() && !facts_.byOperator) want.nominal[i].point.x += middle;
+        if (i > 1 && sets_) want.nominal[i].point.x += middle;
       }
       got.nominal.push_back(touch);
       got.contacts.insert(got.contacts.end(), search.contacts.begin(), search.contacts.end());
@@ -126,7 +132,7 @@ private:
     for (std::size_t i = 0; i < contacts.size(); ++i) {
       contacts[i].point = contacts[i].centre;
       // Without a walk the ball is in the middle that was expected, not in the one that was found.
-      if (facts_.byOperator && i > 1) contacts[i].point = {};
+      if (!sets_ && i > 1) contacts[i].point = {};
     }
   }
 
@@ -203,8 +209,10 @@ private:
   }
 
   const MikroprogFacts& facts_;
+  const double tolerance_;
   Point3 zero_;         // of the active system
   bool middle_ = false; // of the measure that is read
+  bool sets_ = false;   // it sets a position: of a bore, the ball walks to the middle
 };
 
 // What follows a search in feed begins with the path back, at the feed that the program was written with.
@@ -224,31 +232,6 @@ void pathsBack(const verify::Record& ran, const MikroprogFacts& facts, std::vect
 
 } // namespace
 
-std::optional<double> takeEnding(verify::Record& ran, const stdlib::MikroprogControl& control) {
-  if (ran.ending == verify::Ending::Alarm)
-    ran.ending = verify::Ending::Inconclusive; // a fault of the control
-  if (!ran.endedAt.hasPlace() && !ran.pieces.empty()) ran.endedAt = ran.pieces.back().range;
-  if (ran.ending != verify::Ending::Finished) return std::nullopt;
-  for (auto mark = ran.marks.rbegin(); mark != ran.marks.rend(); ++mark) {
-    if (mark->kind != Mark::Kind::Stop) continue;
-    const bool missing = mark->text == control.notFound;
-    if (!missing && mark->text != control.collision) return std::nullopt;
-    ran.ending = verify::Ending::Alarm;
-    ran.text = mark->text;
-    ran.alarmKind = macroAlarmName(missing ? MacroAlarm::ProbeFail : MacroAlarm::PathObstructed);
-    ran.endedAt = mark->range;
-    const double height = ran.end.z;
-    const std::size_t retracts = verify::retractsAtEnd(ran);
-    if (retracts > 0) ran.end = ran.pieces[ran.pieces.size() - retracts].from;
-    // What the ball leans on while it comes up is the operator's, who has read the stop.
-    for (std::size_t i = ran.pieces.size() - retracts; i < ran.pieces.size(); ++i)
-      std::erase_if(ran.events, [&](const auto& event) { return event.second == ran.pieces[i].range; });
-    ran.pieces.resize(ran.pieces.size() - retracts);
-    return height;
-  }
-  return std::nullopt;
-}
-
 std::vector<verify::Difference> compareWithSource(verify::Record source, const verify::Record& ran,
                                                   const MikroprogFacts& facts) {
   const std::string_view obstructed = macroAlarmName(MacroAlarm::PathObstructed);
@@ -267,7 +250,7 @@ std::vector<verify::Difference> compareWithSource(verify::Record source, const v
   rules.atMeasures = rules.mayRestoreModes = true;
 
   verify::Gathered got = gather(source, ran, facts.tolerance, rules.tolerance);
-  Meaning meaning(facts);
+  Meaning meaning(facts, rules.tolerance);
   for (std::size_t i = 0; i < std::min(source.measures.size(), got.parts.size()); ++i) {
     Measure& want = source.measures[i];
     const bool stopped = source.ending != verify::Ending::Finished &&
@@ -281,6 +264,8 @@ std::vector<verify::Difference> compareWithSource(verify::Record source, const v
          {},
          mark.range});
   pathsBack(ran, facts, meaning.own);
+  for (verify::Difference& one : frameFaults(source, ran, facts.height))
+    meaning.own.push_back(std::move(one));
   std::vector<verify::Difference> out = compare(source, got.record, rules);
   if (!out.empty() && out.front().aspect == Aspect::Ending) return out;
   for (verify::Difference& one : meaning.own)

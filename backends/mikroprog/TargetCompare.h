@@ -5,7 +5,6 @@
 #include "stdlib/MikroprogControl.h"
 #include "verify/Compare.h"
 
-#include <optional>
 #include <vector>
 
 namespace dotek::targets {
@@ -21,12 +20,9 @@ struct MikroprogFacts {
   double ballRadius = 0;   // mm
   double returnFeed = 0;   // of the path back after a contact, mm/min
   bool byOperator = false; // the datum is a stop with a text, not G92
+  bool height = false;     // the program knows at which Z it begins
   double tolerance = 1e-6; // mm
 };
-
-// The stop in which a run ends, as the alarm that it stands for, without the retract after it: where that
-// ends, as Z of the machine. nullopt: the run does not end so.
-std::optional<double> takeEnding(verify::Record& ran, const stdlib::MikroprogControl& control);
 
 // `source` goes on in its datums as the target does (verify::Stand::Way::MovePath), unless an operator sets
 // them; `ran` has its ending. The first difference of each aspect.

@@ -1,5 +1,6 @@
 // Cases of verify --to mikroprog.
 #include "backends/mikroprog/TargetCompare.h"
+#include "backends/mikroprog/TargetFrame.h"
 #include "backends/mikroprog/TargetProgram.h"
 #include "frontend/gibbs/Ast.h"
 #include "sim/mikroprog/Dialect.h"
@@ -20,14 +21,13 @@ namespace dialect = sim::mikroprog;
 
 namespace {
 
-// A run, and the height at which it ends after the retract of a tail, in coordinates of the machine.
 struct Ran {
   verify::Record record;
-  std::optional<double> height;
+  std::optional<MikroprogTail> tail;
 };
 using Runs = std::function<Ran(const verify::Interference&)>;
 
-constexpr double kDatum = 0.5; // by how much a datum may move what follows, mm
+constexpr sim::Point3 kBeside{7.25, -5.5, 0}; // mm; on a lathe along X alone
 
 class MikroprogVerification final : public Verification {
 public:
@@ -100,15 +100,9 @@ public:
     const auto lineOf = [&](SourceRange range) {
       return range.hasPlace() ? std::string(sources.file(id).line(sources.line(range))) : std::string();
     };
-    for (const dialect::SkipMoveUse& one : dialect::skipMoves(*program, *control_)) {
-      if (one.use == dialect::SkipUse::Protected || one.use == dialect::SkipUse::Search) continue;
-      out.differs(
-          verify::Aspect::Ending,
-          one.use == dialect::SkipUse::Blind
-              ? "a G31 without a block to go to"
-              : "a G31 that neither guards nor searches: of contact and no contact one has to go on and "
-                "the other to end in its tail",
-          lineOf(program->body[one.statement].origin.range()));
+    if (std::optional<verify::Difference> fault = textFault(*program, *control_)) {
+      std::string line = lineOf(fault->target);
+      out.differences.push_back({std::move(*fault), 0, std::move(line)});
       return out;
     }
     const dialect::Profile profile(*control_);
@@ -119,8 +113,8 @@ public:
     const Runs runs = [&](const verify::Interference& interference) {
       verify::Record ran =
           stand.run(code, now.world, entry, {}, nullptr, verify::Stand::Way::Run, interference);
-      const std::optional<double> height = takeEnding(ran, *control_);
-      return Ran{std::move(ran), height};
+      std::optional<MikroprogTail> tail = takeEnding(ran, *control_);
+      return Ran{std::move(ran), std::move(tail)};
     };
     const verify::Record ran = runs({}).record;
     if (now.shown != nullptr) {
@@ -128,12 +122,14 @@ public:
       takeEnding(*now.shown->record, *control_);
     }
     const bool byOperator = from_.options.datum == "operator";
+    const std::optional<MikroprogRetract> retract = retractOf(now, meant);
     const MikroprogFacts facts{*control_,
                                now.entry.zeros[now.entry.system - 54],
                                now.drawn.hosts.at("overtravel"),
                                now.world.probe().ballRadius(),
                                now.drawn.hosts.at("return_feed"),
                                byOperator,
+                               retract.has_value(),
                                tolerance()};
     const bool sets = std::any_of(meant.measures.begin(), meant.measures.end(),
                                   [](const verify::Measure& measure) { return !measure.datums.empty(); });
@@ -150,8 +146,19 @@ public:
       std::string line = lineOf(difference.target);
       out.differences.push_back({std::move(difference), 0, std::move(line)});
     }
-    if (out.differences.empty() && meant.ending == verify::Ending::Finished)
-      interfere(runs, ran, lineOf, safeHeight(now), out);
+    if (!out.differences.empty() || meant.ending != verify::Ending::Finished) return out;
+    interfere(runs, ran, lineOf, retract, out);
+    if (!out.differences.empty()) return out;
+    const auto rehearsed = [&](const sim::Point3& by) {
+      verify::Entry begun = entry;
+      begun.start = entry.start + by;
+      return stand.run(code, now.world, begun, {}, nullptr, verify::Stand::Way::Rehearse);
+    };
+    const sim::Point3 by = control_->hasAxis('Y') ? kBeside : sim::Point3{kBeside.x, 0, 0};
+    if (std::optional<verify::Difference> fault = startFault(rehearsed({}), rehearsed(by), by)) {
+      std::string line = lineOf(fault->target);
+      out.differences.push_back({std::move(*fault), 0, std::move(line)});
+    }
     return out;
   }
 
@@ -193,13 +200,21 @@ private:
     return rules;
   }
 
-  // Where the tails go up to, in coordinates of the machine: the program knows at which Z it begins. nullopt:
-  // it does not, as one that is edited and was written without it.
-  std::optional<double> safeHeight(const TargetCase& now) const {
+  // How the tails go up: the program knows at which Z it begins. nullopt: it does not, as one that is edited
+  // and was written without it. `meant`: what it was written from.
+  std::optional<MikroprogRetract> retractOf(const TargetCase& now, const verify::Record& meant) const {
     const bool edited = !from_.plan.translation->text.empty();
     if (edited && !from_.plan.fixedHosts.contains("start_z")) return std::nullopt;
-    const double zero = now.entry.zeros[now.entry.system - 54].z;
-    return zero + std::max(now.drawn.hosts.at("start_z"), now.drawn.hosts.at("clearance"));
+    const sim::Point3& zero = now.entry.zeros[now.entry.system - 54];
+    MikroprogRetract out;
+    out.z = std::max(now.drawn.hosts.at("start_z"), now.drawn.hosts.at("clearance"));
+    out.least = zero.z + out.z;
+    for (const verify::Piece& piece : meant.pieces)
+      if (piece.kind != sim::PathKind::Measuring) out.z = std::max(out.z, piece.to.z - zero.z);
+    if (from_.options.datum != "operator") out.z += mostRaised(meant, zero);
+    out.tolerance = kRoundedWord * std::pow(10, -control_->decimals);
+    out.feed = now.drawn.hosts.at("return_feed");
+    return out;
   }
 
   // Why the path that a datum has moved is no evidence; `source` is the run on it.
@@ -249,15 +264,14 @@ private:
   // contact already there.
   static void interfere(const Runs& runs, const verify::Record& ran,
                         const std::function<std::string(SourceRange)>& lineOf,
-                        const std::optional<double>& safe, TargetRun& out) {
+                        const std::optional<MikroprogRetract>& retract, TargetRun& out) {
     using stdlib::MacroAlarm;
     const auto attempt = [&](const verify::Interference& interference, MacroAlarm alarm,
                              std::string_view what, std::size_t number) {
       SourceRange at;
       const Ran disturbed = runs(interference);
       std::string why = whyNotCaught(disturbed.record, macroAlarmName(alarm), at);
-      if (why.empty() && safe && disturbed.height && *disturbed.height < *safe - kDatum)
-        why = "after the stop nothing takes the probe up";
+      if (why.empty() && retract && disturbed.tail) why = tailFault(*disturbed.tail, *retract);
       if (!why.empty() && out.differences.empty())
         out.differs(verify::Aspect::Ending, fmt::format("{} {}: {}", what, number + 1, why), lineOf(at));
     };
@@ -272,9 +286,8 @@ private:
     eachOf(ran.searches, &verify::Interference::missing, MacroAlarm::ProbeFail, "no surface at search");
     eachOf(ran.protectedMoves, &verify::Interference::obstacle, MacroAlarm::PathObstructed,
            "an obstacle in protected move");
-    eachOf(ran.guards, &verify::Interference::touching, MacroAlarm::PathObstructed, "contact before chain");
-    if (ran.guards == 0 && ran.searches + ran.protectedMoves > 0 && out.differences.empty())
-      out.differs(verify::Aspect::Ending, "nothing asks for contact before the first probe move");
+    eachOf(ran.questions.size(), &verify::Interference::touching, MacroAlarm::PathObstructed,
+           "contact before chain");
   }
 
   const VerificationSource from_;

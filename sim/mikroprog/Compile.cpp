@@ -270,12 +270,7 @@ private:
   }
 
   // The text beside the block that is compiled: what the operator reads.
-  std::string comment() const {
-    const auto& body = program_->body;
-    for (std::size_t i = at_; i < body.size() && body[i].origin.block == body[at_].origin.block; ++i)
-      if (const auto* text = std::get_if<ir::Comment>(&body[i].node)) return text->text;
-    return "";
-  }
+  std::string comment() const { return textBeside(*program_, at_); }
 
   const Profile& profile_;
   const std::vector<SkipMoveUse> moves_;

@@ -155,7 +155,7 @@ std::vector<SkipMoveUse> skipMoves(const ir::Program& program, const stdlib::Mik
   for (std::size_t i = 0; i < program.body.size(); ++i) {
     const auto* block = std::get_if<ir::NcBlock>(&program.body[i].node);
     if (block == nullptr || !blocks.does(*block, "probe-move")) continue;
-    SkipMoveUse one{i, SkipUse::Neither};
+    SkipMoveUse one{i};
     if (const auto to = blocks.target(*block); !to) {
       one.use = SkipUse::Blind;
     } else {
@@ -164,9 +164,35 @@ std::vector<SkipMoveUse> skipMoves(const ir::Program& program, const stdlib::Mik
       const bool both = contact && missed;
       const bool ends = both ? blocks.ends(*contact) : contact.has_value(),
                  misses = both ? blocks.ends(*missed) : missed.has_value();
-      if (ends != misses) one.use = ends ? SkipUse::Protected : SkipUse::Search;
+      if (ends != misses) {
+        one.use = ends ? SkipUse::Protected : SkipUse::Search;
+        one.stop = ends ? contact : missed;
+      }
     }
     out.push_back(one);
+  }
+  return out;
+}
+
+std::string textBeside(const ir::Program& program, std::size_t statement) {
+  const auto& body = program.body;
+  for (std::size_t i = statement; i < body.size() && body[i].origin.block == body[statement].origin.block;
+       ++i)
+    if (const auto* text = std::get_if<ir::Comment>(&body[i].node)) return text->text;
+  return "";
+}
+
+std::vector<std::string> functionsFirst(const ir::Program& program, const stdlib::MikroprogControl& control) {
+  std::vector<std::string> out;
+  for (const auto& statement : program.body) {
+    const auto* block = std::get_if<ir::NcBlock>(&statement.node);
+    if (block == nullptr) continue;
+    for (const ir::Word& word : block->words) {
+      if (control.hasAxis(word.address)) return out;
+      const auto number = word.address == 'G' || word.address == 'M' ? wholeOf(word) : std::nullopt;
+      const auto* function = number ? control.find(word.address, *number) : nullptr;
+      if (function != nullptr) out.push_back(function->function);
+    }
   }
   return out;
 }

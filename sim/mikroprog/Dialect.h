@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace dotek::sim::mikroprog {
@@ -50,9 +51,17 @@ enum class SkipUse : std::uint8_t {
 struct SkipMoveUse {
   std::size_t statement = 0; // of the body
   SkipUse use = SkipUse::Neither;
+  std::optional<std::size_t> stop = {}; // of one that protects or searches: where it leads to a stop
 };
 // Of each G31, in the order of the text.
 std::vector<SkipMoveUse> skipMoves(const ir::Program& program, const stdlib::MikroprogControl& control);
+
+// The text beside the block of a statement, which the operator reads at a stop; "": none.
+std::string textBeside(const ir::Program& program, std::size_t statement);
+
+// Functions of the blocks before the first one with an axis: "absolute", "plane-xy", in the order of the
+// text.
+std::vector<std::string> functionsFirst(const ir::Program& program, const stdlib::MikroprogControl& control);
 
 // ---- private to this room
 

@@ -216,6 +216,27 @@ TEST_CASE("verify: Mikroprog finds the middle of a web and a boss from outside")
     }
 }
 
+TEST_CASE("verify: Mikroprog measures between walls without a datum, by contacts alone") {
+  const TestFolder folder("dotek-verify-no-datum");
+  std::string post = readAll(root() / "tests/shops/flags/post.txt");
+  for (const char* before : {"('LUZ')' S'OpFieldData#('UKL') EOL", "('LUZ')' S'OpFieldData#('UKL') EOL",
+                             "X'OpFieldData#('SZER')' S'OpFieldData#('UKL') EOL"}) {
+    const std::string call = before;
+    post = replaced(post, call, call.substr(0, call.find("' S'")) + " EOL");
+  }
+  for (const char* cycle : {"NK.Zebro.Y", "NK.Czop.Srodek", "NK.Rowek.X"}) {
+    driver::VerifyOptions options;
+    take({"flags", cycle, "pomiar", "mikroprog", "", "mikroprog-mill"}, options);
+    options.source.prog = folder.write("post.txt", post);
+    folder.write("dotek.toml", "schema = 1\nform = \"nk-31i\"\n");
+    options.cases = 20;
+    options.jobs = 1;
+    const driver::Outcome outcome = driver::verify(options);
+    const std::string said = renderText(outcome.diagnostics, outcome.sources, 0) + outcome.output;
+    CHECK_MESSAGE(agrees(said), said);
+  }
+}
+
 TEST_CASE("verify: each damage to the way round a web is seen") {
   Shop web{"flags", "NK.Zebro.Y", "pomiar", "mikroprog", "", "mikroprog-mill", {"Q7", "Q10", "Q13"}};
   web.host = {{"clearance", "20"}, {"tool_radius", "3"}, {"overtravel", "5"}, {"return_feed", "1000"},
@@ -232,6 +253,23 @@ TEST_CASE("verify: each damage to the way round a web is seen") {
            {"G31 Z-5 L", "G31 Z-4 L"},         // touches higher
            {"G92 Y20\r\n", "G92 Y21\r\n"}})
     CHECK_MESSAGE(!agrees(verified(web, replaced(good, from, to))), from << " to " << to);
+  web.assume.clear();
+  web.datum = "operator";
+  const std::string byHand = converted(web);
+  CHECK_MESSAGE(agrees(verified(web, byHand)), verified(web, byHand));
+  // The half of the width is 12.5, the ball 3, the clearance 5.
+  for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{
+           {"G31 Y40.5 L", "G31 Y36.5 L"},        // down too near
+           {"G31 Y-0.5 L", "G31 Y3.5 L"},         // the same on the other side
+           {"G1 Y40.5 F1000", "G1 Y50 F1000"},    // too far off the wall
+           {"G1 Y-0.5 F1000", "G1 Y-10 F1000"},   // the same
+           {"G31 Z4 L", "G31 Z5 L"},              // not as high as it began
+           {"G1 Y40.5 F1000", "G1 Y40.5 F2000"}}) // another feed
+    CHECK_MESSAGE(!agrees(verified(web, replaced(byHand, from, to))), from << " to " << to);
+  // After the stop of the operator it is asked again.
+  const std::size_t asked = byHand.rfind("G23 L910 O7");
+  REQUIRE(asked > byHand.find("M0 ;"));
+  CHECK_FALSE(agrees(verified(web, std::string(byHand).replace(asked, 11, "M9"))));
 }
 
 TEST_CASE(

@@ -123,6 +123,12 @@ TEST_CASE("a damaged program of Mikroprog never agrees") {
       {"N90 G27 L910", "N90 G27 L100"},             // the same by a jump
       {"G23 L910 O7", "G23 L990 O7"},               // contact before the chain ends without a word
       {"N40 G23 L910 O7", "N40 M9"},                // nobody asks for it
+      {"N10 G17 G90 G94", "N10 M9"},                // no modes of its own
+      {"N10 G17 G90 G94", "N10 G18 G90 G94"},       // another plane
+      {"N10 G17 G90 G94", "N10 G17 G90 G91 G94"},   // the last one counts
+      {"N10 G17 G90 G94", "N10 G17 G90"},           // whatever the feed is
+      {"N903 G1 Z60", "N903 G1 Z61"},               // up to another height
+      {"N913 G1 Z60 F1000", "N913 G1 Z60 F2000"},   // as fast as nobody wants it
       {"N900 M0 ;SONDA NENASLA PLOCHU", "N900 M9"}, // no tail
       {"N906 G27 L990", "N906 G27 L60"},            // the tail goes back to work
       {"N903 G1 Z", "N903 G1 X"},                   // the tail goes aside
@@ -133,11 +139,33 @@ TEST_CASE("a damaged program of Mikroprog never agrees") {
       {"G0 X-15 Y10", "G0 X-15 Y11"},               // another start
       {"M5", "M3 S100"},                            // the spindle turns
       {"M9", ""},                                   // nobody switches the coolant off
+      {"N50 G0 X-15 Y10", "N50 M9"},                // not to the start point
   };
   for (const auto& [from, to] : kDamage) {
     const driver::Outcome outcome = verified("mikroprog", edited(good, from, to));
     CHECK_MESSAGE(outcome.status == 1, from << " to " << to);
     CHECK_MESSAGE(lastLine(outcome.output) == "DIFFERS: 20 of 20 drawn cases", from << " to " << to);
+  }
+}
+
+TEST_CASE("verify: a program of Mikroprog asks, switches off and goes to its start before it moves") {
+  const std::string good = converted("mikroprog");
+  const std::string beginning =
+      "N20 M5\r\nN30 M9\r\nN40 G23 L910 O7 ;PROBE ALREADY IN CONTACT\r\nN50 G0 X-15 Y10\r\n";
+  const std::pair<std::string, std::string> kOrders[] = {
+      {"N20 G0 X-15 Y10\r\nN30 M5\r\nN40 M9\r\nN50 G23 L910 O7\r\n",
+       "nothing asks for contact before the program"},
+      {"N20 M9\r\nN30 G23 L910 O7\r\nN40 G31 X-15 Y10 L50\r\nN45 G27 L910\r\nN50 M5\r\n",
+       "the spindle turns at a protected move"},
+      {"N20 M5\r\nN30 G23 L910 O7\r\nN40 G31 X-15 Y10 L50\r\nN45 G27 L910\r\nN50 M9\r\n",
+       "the coolant flows at a protected move"},
+      {"N20 M5\r\nN30 M9\r\nN40 G23 L910 O7\r\nN50 M9\r\n", "does not go there first"},
+  };
+  for (const auto& [order, text] : kOrders) {
+    const driver::Outcome outcome = verified("mikroprog", edited(good, beginning, order));
+    CHECK_MESSAGE(lastLine(outcome.output) == "DIFFERS: 20 of 20 drawn cases", order);
+    const std::string said = renderText(outcome.diagnostics, outcome.sources, 0);
+    CHECK_MESSAGE(said.find(text) != std::string::npos, said);
   }
 }
 
