@@ -45,7 +45,8 @@ namespace {
 // What a layout changes of a file.
 std::string diffOf(const driver::OutputFile& file, const SourceMap& sources) {
   for (FileId id = 0; id < sources.size(); ++id)
-    if (sources.file(id).name() == file.name) return lineDiff(file.name, sources.file(id).bytes(), file.text);
+    if (sources.file(id).name() == file.name)
+      return lineDiff(file.name, sources.file(id).bytes(), file.text, isatty(STDOUT_FILENO) == 1);
   return "";
 }
 

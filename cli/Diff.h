@@ -6,8 +6,9 @@
 
 namespace dotek::cli {
 
-// In the form of `diff -u` without lines around the changes; "" for equal texts. Ends of lines by CR LF count
-// as LF. Texts whose changed part is very long are shown as one change.
-std::string lineDiff(const std::string& name, std::string_view before, std::string_view after);
+// In the form of `diff -u`, as a patch of which nothing is lost: lines keep the ends they have in the texts,
+// though CR LF and LF count as equal. "" for equal texts. Texts whose changed part is very long are shown as
+// one change. `terminal`: for an eye, without what would steer it.
+std::string lineDiff(const std::string& name, std::string_view before, std::string_view after, bool terminal);
 
 } // namespace dotek::cli

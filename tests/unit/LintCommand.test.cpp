@@ -164,8 +164,10 @@ TEST_CASE("lint --fix --diff prints what --fix would write, and changes nothing"
       runDotek({"lint", "p.txt", "--select", "all", "--fix", "--diff"}, folder.path());
   CHECK(readAll(path) == text);
   CHECK(shown.status == 1);
-  CHECK(shown.out == "--- p.txt\n+++ p.txt\n@@ -3,2 +3,2 @@\n- IF Flag? ('a')\n-  SeqC' M32''' EOL\n"
-                     "+ IF Flag?('a')\n+  SeqC ' M32' EOL\n");
+  CHECK(shown.out ==
+        "--- p.txt\n+++ p.txt\n@@ -1,7 +1,7 @@\n progStart:\r\n  SetFlag('a')\r\n- IF Flag? ('a')\r\n"
+        "-  SeqC' M32''' EOL\r\n+ IF Flag?('a')\r\n+  SeqC ' M32' EOL\r\n"
+        "   SeqC ' G0 Z5. F100' EOL\r\n  END\r\n RETURN\r\n");
   CHECK(shown.err == "3 repairs in 1 file would be made; nothing is changed\n");
   // What one repair lays bare is in it: applied, it is what --fix writes.
   lint(folder, {"p.txt", "--select", "all", "--fix"});
@@ -288,7 +290,36 @@ TEST_CASE("lint --stdin-filename: the text of an editor under the name of its fi
   CHECK(run("lint --fix --stdin-filename sub/p.txt -").status == 2);
   folder.write("typed", "progStart:\n SeqC' M32''' EOL\nRETURN\n");
   CHECK(run("lint --fix --diff --select all --stdin-filename sub/p.txt -").out ==
-        "--- sub/p.txt\n+++ sub/p.txt\n@@ -2,1 +2,1 @@\n- SeqC' M32''' EOL\n+ SeqC ' M32' EOL\n");
+        "--- sub/p.txt\n+++ sub/p.txt\n@@ -1,3 +1,3 @@\n progStart:\n- SeqC' M32''' EOL\n+ SeqC ' M32' EOL\n "
+        "RETURN\n");
+}
+
+TEST_CASE("lint --fix --diff is a patch that patch and git apply take, and it does what --fix does") {
+  const ProcessFolder folder;
+  const std::string filler = "RETURN\none:\n SeqC ' G0 Z5. F100' EOL\n SeqC ' G0 Z6. F100' EOL\nRETURN\n";
+  const std::string lf = "progStart:\n{ \xE4\xF6\tBohrung }\n SeqC' M32''' EOL\n" + filler + filler +
+                         "two:\n SeqC' M33''' EOL\n RETURN";
+  std::string crlf;
+  for (const char c : lf)
+    crlf += c == '\n' ? "\r\n" : std::string(1, c);
+  for (const std::string& text : {lf, crlf, lf + "\n", crlf + "\r\n"}) {
+    folder.write("posts/p q.txt", text);
+    const std::string lint = "dotek lint 'posts/p q.txt' --select all --fix";
+    const ShellResult shown = folder.run(lint + " --diff > p.diff");
+    REQUIRE_MESSAGE(shown.status == 1, shown.err);
+    folder.run("cp -r posts kept");
+    const ShellResult patch = folder.run("patch --binary -p0 < p.diff");
+    CHECK_MESSAGE(patch.status == 0, patch.out);
+    const std::string patched = folder.read("posts/p q.txt");
+    folder.run("rm -rf posts; cp -r kept posts");
+    const ShellResult git = folder.run("git apply -p0 p.diff");
+    CHECK_MESSAGE(git.status == 0, git.err);
+    CHECK(folder.read("posts/p q.txt") == patched);
+    folder.run("rm -rf posts; mv kept posts");
+    folder.run(lint);
+    CHECK(folder.read("posts/p q.txt") == patched);
+    CHECK(patched != text);
+  }
 }
 
 TEST_CASE("lint: where a profile infers that a position holds the length, no repair is proposed") {
