@@ -71,6 +71,8 @@ driver::LintOptions lintOf(const Raw& raw) {
   // A patch is no list of findings. (CLI11 would list what excludes a flag in the order of addresses.)
   if (raw.fix && raw.diff && (raw.format != "text" || raw.statistics || !raw.writeBaseline.empty()))
     throw UsageError("--fix --diff prints a patch, which has no --format, --statistics or --write-baseline");
+  if (raw.statistics && raw.format != "text")
+    throw UsageError("--statistics prints a table of the codes, which has no --format");
   if (raw.watch && (raw.fix || !raw.writeBaseline.empty()))
     throw UsageError(
         "--watch reads files that somebody edits; --fix and --write-baseline would write beside them");

@@ -150,6 +150,7 @@ private:
     return {options_.paths, [this](FileId file) { return !changed_ || isChanged(file); },
             [this](const std::string& code) { return isWantedSomewhere(code); },
             [this](const std::string& code, FileId file) {
+              if (code == diag::PathUnused::code && !configs_.knowsUnused(file)) return false;
               return lint::isWanted(code, options_, projects_.configOf(file));
             }};
   }

@@ -172,11 +172,18 @@ void Configs::reportUnused(const std::vector<std::string>& paths) {
       return std::mismatch(one.begin(), one.end(), own.begin(), own.end()).first == one.end();
     });
     if (!whole) continue;
+    whole_.insert(own.lexically_normal().string());
     for (const Section& section : file->sections)
       for (const Pattern& pattern : section.patterns)
         if (!pattern.taken && !pattern.text.empty())
           session_.diagnostics().report<diag::PathUnused>(pattern.range, pattern.text);
   }
+}
+
+bool Configs::knowsUnused(FileId settings) const {
+  std::error_code error;
+  const fs::path name = fs::absolute(session_.sources().file(settings).name(), error);
+  return whole_.contains(name.lexically_normal().parent_path().string());
 }
 
 bool isWanted(std::string_view code, const LintOptions& options, const Config& config) {

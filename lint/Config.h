@@ -37,6 +37,8 @@ public:
 
   // Patterns of [[lint.path]] that took no file, of each dotek.toml whose whole folder is in `paths`.
   void reportUnused(const std::vector<std::string>& paths);
+  // That was judged for this dotek.toml.
+  bool knowsUnused(FileId settings) const;
 
 private:
   struct Pattern {
@@ -61,6 +63,7 @@ private:
   dotek::project::Session& session_;
   std::map<std::string, std::shared_ptr<File>> folders_; // by absolute path
   std::map<std::string, Config> files_;                  // by path
+  std::set<std::string> whole_;                          // folders of settings that were read whole
 };
 
 // Whether findings of this code are wanted, and with which severity.

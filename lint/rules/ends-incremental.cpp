@@ -11,7 +11,9 @@ void check(const NcProgram& nc, Report& report) {
   for (std::size_t i = 0; i < program.body.size(); ++i) {
     if (statedMode(program.body[i]) == DistanceMode::Incremental) set = &program.body[i];
     if (!endsProgram(program.body[i]) || !modes[i] || set == nullptr) continue;
-    if (*modes[i] != DistanceMode::Incremental && *modes[i] != DistanceMode::Both) continue;
+    // G90 acts before the M30 of its block.
+    const DistanceMode left = statedMode(program.body[i]).value_or(*modes[i]);
+    if (left != DistanceMode::Incremental && left != DistanceMode::Both) continue;
     report
         .at(program.body[i].origin.range(),
             "the program ends with G91 in force; whether M30 takes it back depends on a parameter, and a "

@@ -93,6 +93,22 @@ TEST_CASE(
   CHECK(Json::parse(folder.read("known.json"))["findings"].size() == 2);
 }
 
+TEST_CASE("baseline: a run on a part of a folder keeps what only a run on the whole folder can find") {
+  const ProcessFolder folder;
+  folder.run("mkdir mill");
+  folder.write("mill/O7411.nc", kOld);
+  folder.write("dotek.toml", "schema = 1\n[[lint.path]]\npath = \"lahte/**\"\nignore = [\"indentation\"]\n");
+  folder.run("dotek lint . --write-baseline known.json");
+  REQUIRE(folder.read("known.json").find("path-unused") != std::string::npos);
+  CHECK(folder.run("dotek lint mill --baseline known.json").err.find("gone") == std::string::npos);
+  folder.run("dotek lint mill --write-baseline known.json");
+  const ShellResult all = folder.run("dotek lint . --baseline known.json");
+  CHECK_MESSAGE(all.status == 0, all.out);
+  // What it finds no more is gone all the same.
+  folder.write("dotek.toml", "schema = 1\n");
+  CHECK(folder.run("dotek lint . --baseline known.json").err.find("gone") != std::string::npos);
+}
+
 TEST_CASE("baseline: a place more of an accepted finding is new") {
   const ProcessFolder folder;
   const auto lint = [&](const std::string& lines) {
@@ -158,6 +174,7 @@ TEST_CASE("lint for GitHub and GitLab, and how often each code is found") {
   CHECK(gitlab[0]["location"]["lines"]["begin"] == 3);
   CHECK(gitlab[0]["severity"] == "major");
   CHECK(gitlab[0]["fingerprint"].get<std::string>().size() == 64);
+  CHECK(folder.run("dotek lint a,b.nc --statistics --format json").status == 2);
   CHECK(folder.run("dotek lint a,b.nc --statistics").out.find("1  error    goto-target-missing") !=
         std::string::npos);
 
