@@ -113,7 +113,7 @@ void Builder::lost(SourceRange range) {
   std::string_view text = sources_.text(range);
   const auto word = [&] {
     text.remove_prefix(std::min(text.find_first_not_of(" \t"), text.size()));
-    const std::string_view found = text.substr(0, text.find_first_of(" \t\r\n=(\""));
+    const std::string_view found = text.substr(0, text.find_first_of(" \t\r\n=(\";"));
     text.remove_prefix(found.size());
     return std::string(found);
   };
@@ -134,7 +134,19 @@ void Builder::lost(SourceRange range) {
     choice->parts.push_back({missing(), {}, {}});
     return;
   }
-  if (first == "if") {
+  // The cases of one choice go on with what its first line opened.
+  const bool chooses = isForeignCase(first) && text.find("probe") == std::string_view::npos;
+  if (chooses && choice != nullptr && choice->otherwise == nullptr && isForeignCase(open_.back().end)) {
+    choice->parts.push_back({missing(), {}, {}});
+    return;
+  }
+  if (first == "cycle" || first == "options") {
+    const std::string name = word();
+    out.node = Header{first == "options", {range, isName(name) ? name : proposeName(name)}, std::nullopt};
+    add(std::move(out));
+    return;
+  }
+  if (first == "if" || chooses) {
     If opened;
     opened.parts.push_back({missing(), {}, {}});
     out.node = std::move(opened);
@@ -209,14 +221,18 @@ const Header* File::header() const {
 
 namespace {
 
-// A word of the language that is declared as a name is one mistake, wherever it is used after that.
+// What is declared by a word of the language, or by what is no name, is one mistake, wherever it is used.
 void reportOnce(Diagnostics& found, const SourceMap& sources, Diagnostics& diagnostics) {
-  std::set<std::string> declared;
+  std::set<std::string> declared, told;
   for (const Diagnostic& one : found.all())
-    if (one.code == diag::WordAsName::code) declared.insert(std::string(sources.text(one.range)));
-  for (Diagnostic& one : found.all())
-    if (one.code != diag::SyntaxError::code || !declared.contains(std::string(sources.text(one.range))))
-      diagnostics.add(std::move(one));
+    if (one.code == diag::WordAsName::code || one.code == diag::NameSpelling::code)
+      declared.insert(std::string(sources.text(one.range)));
+  for (Diagnostic& one : found.all()) {
+    const std::string text(sources.text(one.range));
+    if (one.code == diag::SyntaxError::code && declared.contains(text)) continue;
+    if (one.code == diag::NameSpelling::code && !told.insert(text).second) continue;
+    diagnostics.add(std::move(one));
+  }
 }
 
 } // namespace

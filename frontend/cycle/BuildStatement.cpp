@@ -13,10 +13,14 @@ Name Builder::name(Parser::NameContext& context) {
   out.text = sources_.text(out.range);
   if (context.NAME() != nullptr) return out;
   const std::string shown = sources_.textUtf8(out.range);
-  if (isReserved(out.text))
+  if (isReserved(out.text)) {
     error<diag::WordAsName>(out.range, shown, proposeName(out.text));
-  else
-    error<diag::NameSpelling>(out.range, shown, proposeName(out.text));
+    return out;
+  }
+  // Under the name that is to be written other lines know it.
+  const std::string right = proposeName(out.text);
+  error<diag::NameSpelling>(out.range, shown, right);
+  out.text = right;
   return out;
 }
 
@@ -102,7 +106,13 @@ Clause Builder::clause(Parser::ClauseContext& context) {
     out.letter = {where, std::string(sources_.text(where))};
     const std::string& letter = out.letter->text;
     if (letter.size() != 1 || letter[0] < 'A' || letter[0] > 'Z')
-      error<diag::LetterWish>(where, sources_.textUtf8(where));
+      error<diag::LetterWish>(where, sources_.textUtf8(where),
+                              "is no letter of a macro call; write one capital, `letter D`");
+    else if (std::string_view("GLNOP").find(letter[0]) != std::string_view::npos)
+      error<diag::LetterWish>(
+          where, letter,
+          "hands nothing over, as a call takes G, L, N, O and P for itself; write another "
+          "capital, `letter D`");
   }
   return out;
 }

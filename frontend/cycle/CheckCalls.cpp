@@ -1,6 +1,6 @@
 #include "frontend/cycle/Checker.h"
 #include "frontend/cycle/Link.h"
-#include "support/NearestName.h"
+#include "frontend/cycle/Words.h"
 #include "support/messages/Cycle.h"
 
 #include <algorithm>
@@ -75,9 +75,13 @@ void Checker::call(const Call& call, Known& known) {
       continue;
     }
     if (called != nullptr) {
-      const std::string near = nearestName(one.name.text, parameters);
+      const std::string near = nameLike(one.name.text, parameters);
+      std::string names;
+      for (const auto& taken : parameters)
+        names += (names.empty() ? "; it has `" : ", `") + taken.first + "`";
       diagnostics_.report<diag::UnknownArgument>(one.name.range, call.cycle.text, one.name.text,
-                                                 near.empty() ? "" : "; did you mean `" + near + "`?");
+                                                 near.empty() ? names : "; did you mean `" + near + "`?");
+      given.insert(near); // what is meant by it is not missing
     }
     if (!self) quantity(*one.value, known);
   }

@@ -47,6 +47,9 @@ bool Checker::declareName(const Name& name, Symbol symbol) {
 void Checker::header() {
   const std::vector<Statement>& all = file_.body.statements;
   const Header* first = nullptr;
+  const auto begin = std::find_if(all.begin(), all.end(), [](const Statement& one) {
+    return !std::holds_alternative<ErrorStatement>(one.node); // what that was is reported
+  });
   for (const Statement& statement : all) {
     const auto* header = std::get_if<Header>(&statement.node);
     if (header == nullptr) continue;
@@ -56,7 +59,7 @@ void Checker::header() {
     }
     first = header;
     options_ = header->options;
-    if (&statement != &all.front()) diagnostics_.report<diag::HeaderFirst>(statement.range);
+    if (&statement != &*begin) diagnostics_.report<diag::HeaderFirst>(statement.range);
     std::string stem = stemOf(sources_.file(file_.file).name());
     std::string wanted = header->name.text;
     std::replace(wanted.begin(), wanted.end(), '_', '-');
@@ -70,6 +73,16 @@ void Checker::header() {
 }
 
 void Checker::clauses(const Parameter& parameter) {
+  for (const Clause& clause : parameter.clauses) {
+    if (clause.kind != Clause::Kind::Letter || !clause.letter) continue;
+    const auto [at, isNew] = letters_.emplace(clause.letter->text, parameter.names.front());
+    if (!isNew)
+      diagnostics_
+          .report<diag::LetterWish>(clause.letter->range, clause.letter->text,
+                                    "is wished for twice, and a call hands over one value; write another "
+                                    "capital, or leave out the clause")
+          .note(at->second.range, "`" + at->second.text + "` has it");
+  }
   // They are checked only where the caller gives the parameter.
   Known known;
   for (const Name& name : parameter.names)
@@ -157,23 +170,28 @@ Checker::Checker(const File& file, const SourceMap& sources, Diagnostics& diagno
   addHosts(symbols_);
 }
 
-void Checker::wordsOf(std::string_view line) {
+std::vector<std::string> Checker::wordsOf(std::string_view line) {
+  std::vector<std::string> out;
   std::string word;
   for (const char c : line) {
     if (isLetter(c) || isDigit(c) || c == '_') {
       word += c;
     } else if (!word.empty()) {
-      unreadable_.insert(std::move(word));
+      out.push_back(std::move(word));
       word.clear();
     }
   }
-  if (!word.empty()) unreadable_.insert(std::move(word));
+  if (!word.empty()) out.push_back(std::move(word));
+  return out;
 }
 
 void Checker::collect(const Block& block) {
   for (const Statement& statement : block.statements) {
-    if (std::holds_alternative<ErrorStatement>(statement.node)) wordsOf(sources_.text(statement.range));
+    if (std::holds_alternative<ErrorStatement>(statement.node))
+      for (std::string& word : wordsOf(sources_.text(statement.range)))
+        unreadable_.insert(std::move(word));
     if (const auto* touch = std::get_if<Touch>(&statement.node)) {
+      if (!touch->name) unnamed_.push_back(statement.range);
       if (touch->name) later_.emplace(touch->name->text, Symbol::Role::Touch);
       if (touch->name && touch->otherwise != nullptr) mayMiss_.insert(touch->name->text);
       if (touch->otherwise != nullptr) collect(*touch->otherwise);

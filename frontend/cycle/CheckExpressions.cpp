@@ -2,6 +2,7 @@
 #include "frontend/cycle/Link.h"
 #include "frontend/cycle/Words.h"
 #include "ir/Match.h"
+#include "support/Decimal.h"
 #include "support/NearestName.h"
 #include "support/messages/Cycle.h"
 
@@ -62,10 +63,30 @@ void Checker::unknownName(SourceRange range, const std::string& name) {
   constexpr int kMostHints = 200;
   const std::string near = name == "true"              ? "yes"
                            : name == "false"           ? "no"
-                           : nameHints_++ < kMostHints ? nearestName(name, symbols_)
+                           : nameHints_++ < kMostHints ? nameLike(name, symbols_)
                                                        : "";
-  diagnostics_.report<diag::UnknownValueName>(range, name,
-                                              near.empty() ? "" : "; did you mean `" + near + "`?");
+  std::string hint = near.empty() ? "" : "; did you mean `" + near + "`?";
+  if (name == "pi" && near.empty())
+    hint = "; angles have their unit, `180 deg`, and functions take and give them so";
+  diagnostics_.report<diag::UnknownValueName>(range, name, hint);
+}
+
+bool Checker::unnamedTouch(const Member& member) {
+  constexpr std::array<std::string_view, 5> kMembers = {"at", "at_x", "at_y", "at_z", "error"};
+  const std::string& name = member.object.text;
+  if (unreadable_.contains(name) || below_.contains(name) || !nearestName(name, later_).empty() ||
+      std::find(kMembers.begin(), kMembers.end(), member.member.text) == kMembers.end())
+    return false;
+  const SourceRange* touch = nullptr;
+  for (const SourceRange& one : unnamed_)
+    if (one.begin < member.object.range.begin) touch = &one;
+  if (touch == nullptr) return false;
+  diagnostics_
+      .report<diag::UnknownValueName>(
+          member.object.range, name,
+          fmt::format("; name the touch of line {}: `{} -> {}`", sources_.line(*touch), text(*touch), name))
+      .note(*touch, "this touch gives no name");
+  return true;
 }
 
 void Checker::mismatch(const Expression& left, const Quantity& a, const Expression& right, const Quantity& b,
@@ -77,8 +98,14 @@ void Checker::mismatch(const Expression& left, const Quantity& a, const Expressi
     return true;
   };
   if (bare(right, a) || bare(left, b)) return;
+  // `rough is 1`.
+  const auto* number = std::get_if<Number>(&inner(right).node);
+  std::string hint;
+  if (a.base == Base::Flag && number != nullptr && (number->value == 0 || number->value == 1))
+    hint = fmt::format("; a condition is asked for by itself: write `{}{}`", number->value == 0 ? "not " : "",
+                       text(left.range));
   diagnostics_.report<diag::KindsMixed>(where, doing, quantityText(a), text(left.range), quantityText(b),
-                                        text(right.range));
+                                        text(right.range), hint);
 }
 
 void Checker::want(const Expression& expression, Quantity wanted, std::string_view what, const Known& known) {
@@ -88,12 +115,22 @@ void Checker::want(const Expression& expression, Quantity wanted, std::string_vi
   }
   const Quantity found = quantity(expression, known);
   if (found.fits(wanted)) return;
-  if (isBareNumber(expression) && !unitFor(wanted).empty())
-    diagnostics_.report<diag::UnitMissing>(expression.range, text(expression.range), quantityText(wanted),
-                                           fmt::format("{} {}", text(expression.range), unitFor(wanted)));
-  else
-    diagnostics_.report<diag::WrongValue>(expression.range, what, quantityText(wanted),
-                                          text(expression.range), quantityText(found));
+  const std::string written = text(expression.range);
+  const auto* number = std::get_if<Number>(&inner(expression).node);
+  const double value = number == nullptr ? 0 : number->value;
+  if (isBareNumber(expression) && !unitFor(wanted).empty()) {
+    std::string right = fmt::format("{} {}", written, unitFor(wanted));
+    // A control counts a pause in milliseconds.
+    constexpr double kLongPause = 50; // s
+    if (wanted.base == Base::Time && value >= kLongPause)
+      right = fmt::format("{} s` where these are milliseconds, else `{}", numberText(value / 1000), right);
+    diagnostics_.report<diag::UnitMissing>(expression.range, written, quantityText(wanted), right);
+    return;
+  }
+  std::string kind = quantityText(found);
+  if (wanted.base == Base::WorkOffset && isBareNumber(expression))
+    kind += value >= 54 && value <= 59 ? fmt::format("; write `G{}`", written) : "; those are `G54` to `G59`";
+  diagnostics_.report<diag::WrongValue>(expression.range, what, quantityText(wanted), written, kind);
 }
 
 void Checker::wantFlag(const Expression& expression, std::string_view where, const Known& known) {
@@ -130,23 +167,28 @@ Quantity Checker::choice(const Expression& expression, const Quantity& of, const
 }
 
 void Checker::addGiven(const Expression& condition, bool truth, Known& known) const {
-  std::visit(ir::Overloaded{
-                 [&](const Given& given) {
-                   if (truth) known.given.insert(given.name.text);
-                 },
-                 [&](const Bracketed& bracketed) { addGiven(*bracketed.inner, truth, known); },
-                 [&](const Unary& unary) {
-                   if (unary.op == UnaryOp::Not) addGiven(*unary.operand, !truth, known);
-                 },
-                 [&](const Binary& binary) {
-                   const bool both =
-                       (binary.op == BinaryOp::And && truth) || (binary.op == BinaryOp::Or && !truth);
-                   if (!both) return;
-                   addGiven(*binary.left, truth, known);
-                   addGiven(*binary.right, truth, known);
-                 },
-                 [](const ir::OneOf<Missing, Number, NameUse, Member, WorkOffset, Text, Function> auto&) {}},
-             condition.node);
+  std::visit(
+      ir::Overloaded{[&](const Missing&) {
+                       // A line that could not be read may ask for any name in it.
+                       for (std::string& word : wordsOf(sources_.text(condition.range)))
+                         known.given.insert(std::move(word));
+                     },
+                     [&](const Given& given) {
+                       if (truth) known.given.insert(given.name.text);
+                     },
+                     [&](const Bracketed& bracketed) { addGiven(*bracketed.inner, truth, known); },
+                     [&](const Unary& unary) {
+                       if (unary.op == UnaryOp::Not) addGiven(*unary.operand, !truth, known);
+                     },
+                     [&](const Binary& binary) {
+                       const bool both =
+                           (binary.op == BinaryOp::And && truth) || (binary.op == BinaryOp::Or && !truth);
+                       if (!both) return;
+                       addGiven(*binary.left, truth, known);
+                       addGiven(*binary.right, truth, known);
+                     },
+                     [](const ir::OneOf<Number, NameUse, Member, WorkOffset, Text, Function> auto&) {}},
+      condition.node);
 }
 
 Quantity Checker::name(const Expression& expression, const NameUse& use, const Known& known) {
@@ -203,11 +245,13 @@ Quantity Checker::member(const Expression& expression, const Member& member, con
   const auto found = symbols_.find(object);
   if (found == symbols_.end()) {
     const auto later = later_.find(object);
-    if (later == later_.end() || later->second == Symbol::Role::Local)
-      unknownName(member.object.range, object);
-    else
+    if (later == later_.end() || later->second == Symbol::Role::Local) {
+      if (later != later_.end() || !unnamedTouch(member)) unknownName(member.object.range, object);
+      if (later == later_.end() && !below_.contains(object)) symbols_[object].read = true; // once
+    } else {
       diagnostics_.report<diag::ReadBeforeTouch>(expression.range, text(expression.range), object,
                                                  later->second == Symbol::Role::Touch ? "touch" : "call");
+    }
     return {};
   }
   Symbol& symbol = found->second;

@@ -2,6 +2,7 @@
 #include "frontend/cycle/Walk.h"
 #include "frontend/cycle/Words.h"
 #include "ir/Match.h"
+#include "support/Ascii.h"
 #include "support/messages/Cycle.h"
 
 #include <algorithm>
@@ -284,7 +285,12 @@ void Checker::block(const Block& all, Known& known) {
 void Checker::statement(const Statement& s, Known& known) {
   std::visit(
       ir::Overloaded{
-          [](const ErrorStatement&) {}, [](const ir::OneOf<Header, SpindleOff, Coolant, Stop> auto&) {},
+          [&](const ErrorStatement&) {
+            // The probe may be switched by it, and what touches after that is no further mistake.
+            for (const std::string& word : wordsOf(sources_.text(s.range)))
+              if (lowerCase(word).starts_with("probe")) known.probe = ProbeState::On;
+          },
+          [](const ir::OneOf<Header, SpindleOff, Coolant, Stop> auto&) {},
           [&](const ir::OneOf<Use, Needs, Parameter, Result, Require> auto&) {
             // Those of the file itself are taken before.
             if (depth_ > 1) diagnostics_.report<diag::LateDeclaration>(s.range);

@@ -4,9 +4,11 @@
 #include "frontend/cycle/Check.h"
 #include "frontend/cycle/Kinds.h"
 
+#include <map>
 #include <set>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace dotek::frontend::cycle {
 
@@ -45,7 +47,7 @@ private:
   void defaults();
   // Names of touches, called cycles and values, wherever they get their values.
   void collect(const Block& block);
-  void wordsOf(std::string_view line); // that could not be read
+  static std::vector<std::string> wordsOf(std::string_view line);
   void collectDeclarations();
 
   // ---- CheckFlow.cpp
@@ -86,6 +88,8 @@ private:
   void mismatch(const Expression& left, const Quantity& a, const Expression& right, const Quantity& b,
                 SourceRange where, std::string_view doing);
   void unknownName(SourceRange range, const std::string& name);
+  // A value of what nothing gave its name: of a touch without one, reported there.
+  bool unnamedTouch(const Member& member);
   // The optional parameters that are given where the condition is true, or where it is false.
   void addGiven(const Expression& condition, bool truth, Known& known) const;
 
@@ -100,7 +104,9 @@ private:
   std::set<std::string, std::less<>> mayMiss_; // touches whose `else` may go on
   // Parameters and results, wherever they are declared.
   std::map<std::string, SourceRange, std::less<>> below_;
-  bool inClause_ = false; // of a parameter
+  std::vector<SourceRange> unnamed_;    // touches without a name, in their order
+  std::map<std::string, Name> letters_; // that parameters wish for, and the first of each
+  bool inClause_ = false;               // of a parameter
   std::set<std::string, std::less<>>
       unreadable_; // words of lines that could not be read: they may give names
   // Where `use` brought the declarations that are being taken; no place: they are the file's own.

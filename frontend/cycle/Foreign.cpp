@@ -1,5 +1,6 @@
 #include "frontend/cycle/Foreign.h"
 
+#include "frontend/cycle/Tokens.h"
 #include "frontend/cycle/Words.h"
 #include "support/Ascii.h"
 
@@ -291,7 +292,9 @@ std::string set(const Line& line) {
   if (tool.size() > 1 && (tool[0] == 'T' || tool[0] == 'H' || tool[0] == 'D') && isDigit(tool[1]))
     return fmt::format("a tool offset is its number alone; write `set tool {} {}`", tool.substr(1),
                        line.rest(line.at() + 1));
-  if (line.type(1) != Lexer::WORK_OFFSET) return "";
+  const bool named = line.type(1) == Lexer::NAME && line.type(2) == Lexer::COLON &&
+                     line.type(3) == Lexer::AXIS && line.at() == 3;
+  if (line.type(1) != Lexer::WORK_OFFSET && !named) return "";
   return fmt::format("a work offset is set by what gets which coordinate; write `set {}: right.at becomes x "
                      "0 mm`",
                      line.word(1));
@@ -340,8 +343,33 @@ std::string begun(const Line& line) {
   if (isAmong(head, kRoutines))
     return "what is used more than once is a cycle in a file of its own, `cycle NAME`, and run by `call "
            "NAME`";
+  const auto holds = [&](std::string_view word) {
+    for (size_t i = 1; i < line.size(); ++i)
+      if (line.word(i) == word) return true;
+    return false;
+  };
   constexpr std::array<std::string_view, 5> kSwitches = {"turn", "switch", "enable", "disable", "activate"};
-  if (isAmong(head, kSwitches)) return "the probe is switched by `probe on` and `probe off`";
+  if (isAmong(head, kSwitches) && (head != "switch" || holds("probe")))
+    return "the probe is switched by `probe on` and `probe off`";
+  if (isForeignCase(head))
+    return "one of several cases is `if side is left then` .. `else if side is right then` .. `end`";
+  constexpr std::array<std::string_view, 4> kLeaves = {"break", "continue", "leave", "last"};
+  if (isAmong(head, kLeaves))
+    return "nothing leaves a loop early; its condition ends it: `while CONDITION at most 10 times`";
+  constexpr std::array<std::string_view, 9> kShows = {"message", "msg",    "display", "show",    "popup",
+                                                      "prompt",  "dialog", "alert",   "operator"};
+  if (isAmong(head, kShows))
+    return "`stop \"text\"` shows a text and waits for the operator, `report \"Diameter\" measured size` "
+           "writes a line of the protocol";
+  // `probe_on`, `move_to x 5 mm`.
+  if (const size_t gap = head.find('_'); gap != std::string::npos && line.type(1) != Lexer::EQUALS) {
+    const std::string first = head.substr(0, gap);
+    const auto known = statementWords();
+    std::string words = head + (line.size() > 1 ? " " + line.rest(1) : "");
+    std::replace(words.begin(), words.begin() + static_cast<std::ptrdiff_t>(head.size()), '_', ' ');
+    if (first != "end" && std::find(known.begin(), known.end(), first) != known.end())
+      return fmt::format("the words of a statement are written apart; write `{}`", words);
+  }
   constexpr std::array<std::string_view, 4> kSearches = {"measure", "search", "find", "contact"};
   if (isAmong(head, kSearches)) return "a surface is measured by `touch x by 10 mm -> NAME`";
   const bool code = head.size() > 1 && (head[0] == 'g' || head[0] == 'm') &&
@@ -361,8 +389,8 @@ bool beginsForeign(const Line& line) {
 
 std::string foreignForm(const Line& line) {
   if (line.size() == 0) return "";
-  for (const auto& form : {namedBefore, declared, called, given, commented, opened, moved, touched, set,
-                           parameter, computed, begun})
+  for (const auto& form : {foreignPart, namedBefore, declared, called, given, commented, opened, moved,
+                           touched, set, parameter, computed, begun, foreignOrder})
     if (std::string message = form(line); !message.empty()) return message;
   return "";
 }

@@ -33,5 +33,10 @@ private:
 bool beginsForeign(const Line& line);
 // The message; "" for what is nothing known.
 std::string foreignForm(const Line& line);
+// Of a part that is known wherever it is, and of parts in a wrong place; see foreignForm().
+std::string foreignPart(const Line& line);
+std::string foreignOrder(const Line& line);
+// `cm`, `inch`, `ms`, ..
+bool isForeignUnit(std::string_view word);
 
 } // namespace dotek::frontend::cycle

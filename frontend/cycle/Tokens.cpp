@@ -151,13 +151,6 @@ std::string misspelt(const std::string& word) {
   return near.empty() ? "" : fmt::format("did you mean `{}`?", near);
 }
 
-bool isForeignUnit(std::string_view word) {
-  constexpr std::array<std::string_view, 16> kUnits = {"cm",      "dm",  "m",    "um",   "inch", "inches",
-                                                       "zoll",    "mil", "thou", "grad", "rad",  "degree",
-                                                       "degrees", "sec", "ms",   "min"};
-  return std::find(kUnits.begin(), kUnits.end(), word) != kUnits.end();
-}
-
 // Of the line that the token is in.
 size_t firstOfLine(const antlr4::Token& token, const antlr4::Parser& parser) {
   auto& input = *const_cast<antlr4::Parser&>(parser).getTokenStream();
@@ -307,6 +300,8 @@ std::string explain(const antlr4::Token& offending, const antlr4::Parser& parser
   }
   if (type == Lexer::NEWLINE || type == antlr4::Token::EOF)
     return fmt::format("the line ends before the statement is complete{}", write);
+  if (type == Lexer::CODE && std::string_view("XYZABC").find(text[0]) == std::string_view::npos)
+    return fmt::format("`{}` is G code, which no cycle holds{}", text, write);
   if (type == Lexer::CODE)
     return fmt::format("`{}` is G code; in a cycle coordinates are written `x 5 mm`{}", text, write);
   if (type == Lexer::ODD_NAME && (word == "stop" || word == "alarm" || word == "report"))
@@ -473,12 +468,18 @@ Language language() {
 }
 
 bool isForeignEnd(std::string_view word) {
-  constexpr std::array<std::string_view, 6> kEnds = {"endif", "endwhile", "endfor", "next", "wend", "done"};
+  constexpr std::array<std::string_view, 11> kEnds = {"endif",   "endwhile", "endfor",   "next",
+                                                      "wend",    "done",     "end_if",   "end_while",
+                                                      "end_for", "endcase",  "endswitch"};
   return std::find(kEnds.begin(), kEnds.end(), word) != kEnds.end();
 }
 
 bool isForeignElseIf(std::string_view word) {
-  return word == "elseif" || word == "elsif" || word == "elif";
+  return word == "elseif" || word == "elsif" || word == "elif" || word == "else_if";
+}
+
+bool isForeignCase(std::string_view word) {
+  return word == "case" || word == "select" || word == "switch" || word == "when";
 }
 
 } // namespace dotek::frontend::cycle

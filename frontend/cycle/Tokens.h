@@ -18,9 +18,10 @@ namespace dotek::frontend::cycle {
 // Words of a statement over several lines.
 inline constexpr size_t kStatementTokens = 2000;
 
-// Words of other languages for `end` and for `else if`.
+// Words of other languages for `end`, for `else if`, and for one of several cases.
 bool isForeignEnd(std::string_view word);
 bool isForeignElseIf(std::string_view word);
+bool isForeignCase(std::string_view word);
 
 // Names the words and ends the statements: a line end within brackets, after a comma or after an operator is
 // hidden, unless a new statement begins on the next line. The last line gets an end, too.

@@ -137,6 +137,26 @@ std::string proposeName(View word) {
   return isReserved(out) ? out + "_value" : out;
 }
 
+bool sharesPart(View one, View other) {
+  constexpr std::size_t kBeginning = 3, kPart = 4;
+  const bool begins = one.size() >= kBeginning && other.size() >= kBeginning &&
+                      (one.starts_with(other) || other.starts_with(one));
+  const auto has = [&](View part) {
+    for (View rest = other; !rest.empty();) {
+      const std::size_t end = std::min(rest.find('_'), rest.size());
+      if (rest.substr(0, end) == part) return true;
+      rest.remove_prefix(std::min(end + 1, rest.size()));
+    }
+    return false;
+  };
+  for (View rest = one; !rest.empty() && !begins;) {
+    const std::size_t end = std::min(rest.find('_'), rest.size());
+    if (end >= kPart && has(rest.substr(0, end))) return true;
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  return begins;
+}
+
 std::optional<TypeName> typeOf(View word) {
   const auto at = std::find(kTypes.begin(), kTypes.end(), word);
   if (at == kTypes.end()) return std::nullopt;

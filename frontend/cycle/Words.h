@@ -2,6 +2,7 @@
 #pragma once
 
 #include "frontend/cycle/Ast.h"
+#include "support/NearestName.h"
 
 #include <optional>
 #include <span>
@@ -20,6 +21,23 @@ bool isReserved(std::string_view word);
 bool isName(std::string_view word);
 // A name for one that is reserved or no name: `Bore-Dia` gives `bore_dia`, `x` gives `x_value`.
 std::string proposeName(std::string_view word);
+
+// The one of two names is how the other begins, or they have a part in common: `dia` and `diameter`,
+// `probe_radius` and `ball_radius`.
+bool sharesPart(std::string_view one, std::string_view other);
+// The nearest of pairs whose first is the name; else the only one that shares a part. "": none.
+template <class Names> std::string nameLike(std::string_view name, const Names& names) {
+  std::string out = nearestName(name, names);
+  if (!out.empty()) return out;
+  std::size_t left = NearestName::kMostOffers;
+  for (const auto& known : names) {
+    if (left-- == 0) return "";
+    if (!sharesPart(name, known.first)) continue;
+    if (!out.empty()) return "";
+    out = known.first;
+  }
+  return out;
+}
 
 std::optional<TypeName> typeOf(std::string_view word);
 std::optional<Unit> unitOf(std::string_view text);

@@ -114,6 +114,79 @@ TEST_CASE("cycles: slips of newcomers are one message each, with what to write")
       {"for i = 1, 4\nend", "`for i = 1 to 4`"},
       {"for i = 1 to 4 do\nend", "`for i = 1 to 4`"},
       {"for far = 1 mm, 2 mm, 3 mm\nend", "goes through no list"},
+      // Titles and the order of a declaration.
+      {"parameter far : length = 8 mm  From the start down",
+       "`parameter far : length = 8 mm \"From the start down\"`"},
+      {"parameter far : length From the edge require far > 0 mm",
+       "`parameter far : length \"From the edge\" require far > 0 mm`"},
+      {"parameter far : length = 8 mm from_the_start", "`parameter far : length = 8 mm \"from the start\"`"},
+      {"result far : length Way", "`result far : length \"Way\"`"},
+      {"parameter far : work_offset = G54 optional \"Far\"",
+       "`parameter far : work_offset optional \"Far\"`"},
+      {"parameter far : length \"Far\" = 5 mm", "`parameter far : length = 5 mm \"Far\"`"},
+      {"parameter far : length range 1 mm to 9 mm \"Far\"",
+       "`parameter far : length \"Far\" range 1 mm to 9 mm`"},
+      {"result far : length = 0 mm \"Far\"", "`result far : length \"Far\"`"},
+      {"parameter far : length \"Far\" range 1 mm, 50 mm", "`range 1 mm to 50 mm`"},
+      {"parameter far : length \"Far\" range 1 mm - 50 mm", "`range 1 mm to 50 mm`"},
+      {"parameter far : length \"Far\" range 1..50 mm", "`range 1 mm to 50 mm`"},
+      {"parameter far : length \"Far\" range -5 mm, -1 mm", "`range -5 mm to -1 mm`"},
+      {"parameter far : choice of left right = left \"Far\"", "`parameter far : choice of left, right"},
+      {"parameter far : choice of left or right", "`parameter far : choice of left, right`"},
+      {"parameter far : choice left, right", "`parameter far : choice of left, right`"},
+      {"parameter far : length \"Far\" range from 1 mm to 5 mm", "`range 1 mm to 5 mm`"},
+      {"parameter far : length \"Far\" require > 0 mm", "require far > 0 mm`"},
+      {"parameter end : length \"Far\"", "`end_value`"},
+      {"touch x by gap -> then", "`then_value`"},
+      {"parameter far : length = 5 cm \"Far\"", "`cm` is no unit"},
+      // Two statements in a line.
+      {"spindle off probe on", "`probe on` in the next one"},
+      {"size = gap; probe on", "`probe on` in the next one"},
+      {"size = gap;", "take out the `;`"},
+      {"size = gap * 2 far = gap", "`far = gap` in the next one"},
+      {"call bore diameter = 30 mm depth = 5 mm -> hole",
+       "`call bore diameter = 30 mm, depth = 5 mm -> hole`"},
+      // Conditions.
+      {"if 0 mm < edge.at < 5 mm then\nend", "`0 mm < edge.at and edge.at < 5 mm`"},
+      {"if gap > 1 mm and < 5 mm then\nend", "`gap > 1 mm and gap < 5 mm`"},
+      {"if given gap and > 1 mm then\nend", "`given gap and gap > 1 mm`"},
+      {"if gap given then\nend", "`if given gap then`"},
+      {"if gap is given then\nend", "`if given gap then`"},
+      {"if gap is not given then\nend", "`if not given gap then`"},
+      {"if gap not given then\nend", "`if not given gap then`"},
+      {"if gap exists then\nend", "`if given gap then`"},
+      // Touches and offsets.
+      {"touch x by gap feed 50 mm/min -> far", "`touch x by gap -> far`"},
+      {"touch x by gap, y by gap -> far", "`touch along x 1, y 1 by 10 mm -> far`"},
+      {"touch x by gap -> far overtravel 3 mm", "`touch x by gap overtravel 3 mm -> far`"},
+      {"set G54: edge.at becomes x 0, y 0", "`set G54: edge.at becomes x 0, top.at becomes y 0`"},
+      {"set G54: edge.at becomes x = 0 mm", "`set G54: edge.at becomes x 0 mm`"},
+      {"move to G53 z 0 mm", "`move to machine z 0 mm`"},
+      {"protected move G53 z 0 mm", "`protected move to machine z 0 mm`"},
+      {"move to G55 z 0 mm", "`move to work G55 z 0 mm`"},
+      {"move to machine G53 z 0 mm", "`move to machine z 0 mm`"},
+      {"move to z 0 mm G53", "`move to machine z 0 mm`"},
+      {"move machine z 0 mm", "`move to machine z 0 mm`"},
+      {"move to x 5 mm y 10 mm", "`move to x 5 mm, y 10 mm`"},
+      {"set G53: edge.at becomes x 0 mm", "those are `G54` to `G59`"},
+      {"set G60: edge.at becomes x 0 mm", "those are `G54` to `G59`"},
+      {"set 54: edge.at becomes x 0 mm", "write `G54`"},
+      // Words and numbers.
+      {"probe_on", "`probe on`"},
+      {"move_to x 5 mm", "`move to x 5 mm`"},
+      {"break", "`while CONDITION at most 10 times`"},
+      {"message \"ok\"", "`stop \"text\"`"},
+      {"case gap\nsize = gap\nend", "`if side is left then`"},
+      {"protected move by y 1_000 mm", "`1000`"},
+      {"protected move by y 1 000 mm", "`1000`"},
+      {"protected move by y 1 000,5 mm", "`1000.5`"},
+      {"dwell 500", "`0.5 s` where these are milliseconds, else `500 s`"},
+      {"size = edge.at + probe_radius", "did you mean `ball_radius`?"},
+      {"size = gap * 180 / pi", "angles have their unit"},
+      {"size = left.at\nsize = left.at + left.error", "nothing is called `left`"},
+      {"touch x by gap\nsize = left.at\nsize = left.at + left.error", "`touch x by gap -> left`"},
+      {"far = gap > 1 mm\nif far is 1 then\nend", "write `far`"},
+      {"far = gap > 1 mm\nif far is 0 then\nend", "write `not far`"},
   };
   for (const Slip& slip : kSlips) {
     CAPTURE(slip.line);
@@ -122,6 +195,61 @@ TEST_CASE("cycles: slips of newcomers are one message each, with what to write")
     CAPTURE(found);
     CHECK(count == 1);
     CHECK(found.find(slip.says) != std::string::npos);
+  }
+}
+
+TEST_CASE("cycles: what a line that could not be read began or asked for is no further mistake") {
+  const auto errors = [](const std::string& text) {
+    SourceMap sources;
+    Diagnostics diagnostics;
+    const cycle::File file = cycle::parse(sources.add(SourceFile("one.cycle", text, Encoding::Utf8)), sources,
+                                          Limits(), diagnostics);
+    cycle::check(file, sources, diagnostics);
+    std::string out;
+    for (const Diagnostic& one : diagnostics.all())
+      if (one.severity == Severity::Error) out += one.message + " [" + std::string(one.code) + "]\n";
+    return out;
+  };
+  const auto count = [](const std::string& text) { return std::count(text.begin(), text.end(), '\n'); };
+  const std::string rest = "parameter gap : length = 5 mm \"Gap\" require gap > 0 mm\n"
+                           "parameter limit : length optional \"Limit\"\n";
+  const std::string run = "touch x by gap -> edge\nprotected move to start\nprobe off\n";
+  for (const std::string& text :
+       {"cycle one \"One\" ; Seite\n" + rest + "probe on\n" + run,
+        "cycle one-side\n" + rest + "probe on\n" + run,
+        "# Side\ncycle one \"One\"\n" + rest + "probe on\n" + run,
+        "%\ncycle one \"One\"\n" + rest + "probe on\n" + run,
+        "cycle one \"One\"\n" + rest + "probe_on\n" + run,
+        "cycle one \"One\"\n" + rest + "probe on M19\n" + run,
+        "cycle one \"One\"\n" + rest + "spindle off probe on\n" + run,
+        "cycle one \"One\"\n" + rest + "probe on\n" + run +
+            "if limit is given then\n  if edge.at > limit then\n    alarm \"Far\"\n  end\nend\n",
+        "cycle one \"One\"\nparameter Gap : length = 5 mm \"Gap\" require gap > 0 mm\nprobe on\n" + run}) {
+    const std::string found = errors(text);
+    CHECK_MESSAGE(count(found) == 1, text << found);
+  }
+}
+
+TEST_CASE("cycles: a letter that no call hands over, or that two parameters wish for, is an error") {
+  int count = 0;
+  std::string found = errorsOf("", count);
+  CHECK(count == 0);
+  for (const auto& [line, says] :
+       {std::pair{"parameter far : length \"Far\" letter G", "a call takes G, L, N, O and P for itself"},
+        std::pair{"parameter far : length \"Far\" letter d", "write one capital"},
+        std::pair{"parameter far : length \"Far\" letter D\nparameter wide : length \"Wide\" letter D",
+                  "is wished for twice"}}) {
+    SourceMap sources;
+    Diagnostics diagnostics;
+    const std::string text = "cycle one \"One\"\n" + std::string(line) + "\nsize = 1 mm\n";
+    const cycle::File file = cycle::parse(sources.add(SourceFile("one.cycle", text, Encoding::Utf8)), sources,
+                                          Limits(), diagnostics);
+    cycle::check(file, sources, diagnostics);
+    found.clear();
+    for (const Diagnostic& one : diagnostics.all())
+      if (one.severity == Severity::Error) found += one.message + " [" + std::string(one.code) + "]\n";
+    CHECK_MESSAGE(found.find(says) != std::string::npos, line << "\n" << found);
+    CHECK_MESSAGE(std::count(found.begin(), found.end(), '\n') == 1, line << "\n" << found);
   }
 }
 
