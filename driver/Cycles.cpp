@@ -16,6 +16,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
+#include <string>
 #include <system_error>
 
 namespace dotek::driver {
@@ -161,6 +163,12 @@ Outcome catalogue(const CycleOptions& options) {
         if (data->name.find('/') == std::string::npos) add(cycles.library(cycleName(data->name)));
     for (const std::string& path : cyclePaths(options.inputs, session))
       if (kindAmong(path, {InputKind::Cycle}, kExpected, session)) add(cycles.check(path));
+    std::set<std::string> linked;
+    for (const CyclePage& page : pages)
+      linked.insert(page.name);
+    for (CyclePage& page : pages)
+      for (const std::string& name : page.calls)
+        if (!linked.contains(name)) page.elsewhere.push_back(name);
     std::string all;
     std::vector<OutputFile> files;
     for (const CyclePage& page : pages) {

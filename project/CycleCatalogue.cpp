@@ -1,86 +1,17 @@
 #include "project/CycleCatalogue.h"
+#include "project/CycleDeeds.h"
 
 #include "frontend/cycle/Link.h"
 #include "frontend/cycle/Parse.h"
-#include "ir/Match.h"
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <set>
 
 namespace dotek::project {
 
 namespace cycle = frontend::cycle;
 
 namespace {
-
-std::string_view ofTool(cycle::ToolPart part) {
-  constexpr std::string_view kTitles[] = {"length", "wear of the length", "radius", "wear of the radius"};
-  return kTitles[static_cast<std::size_t>(part)];
-}
-
-// What the statements of a cycle do, those of the cycles that it calls included.
-class Walk {
-public:
-  explicit Walk(CyclePage& page) : page_(page) {}
-
-  void file(const cycle::File& file) {
-    if (seen_.insert(&file).second) block(file.body);
-  }
-
-private:
-  void add(std::vector<std::string>& list, const std::string& text) {
-    if (std::find(list.begin(), list.end(), text) == list.end()) list.push_back(text);
-  }
-  void block(const cycle::Block& block) {
-    for (const cycle::Statement& statement : block.statements)
-      std::visit(ir::Overloaded{[&](const cycle::Alarm& alarm) { add(page_.alarms, alarm.text.text); },
-                                [&](const cycle::Touch& touch) {
-                                  if (touch.otherwise == nullptr)
-                                    page_.missStops = true;
-                                  else
-                                    this->block(*touch.otherwise);
-                                },
-                                [&](const cycle::If& choice) {
-                                  for (const cycle::If::Part& part : choice.parts)
-                                    this->block(part.body);
-                                  if (choice.otherwise != nullptr) this->block(*choice.otherwise);
-                                },
-                                [&](const cycle::Repeat& loop) { this->block(loop.body); },
-                                [&](const cycle::For& loop) { this->block(loop.body); },
-                                [&](const cycle::While& loop) { this->block(loop.body); },
-                                [&](const cycle::SetOffset& set) {
-                                  std::string axes;
-                                  for (const cycle::Becomes& item : set.items)
-                                    axes += std::string(axes.empty() ? "" : ", ") + axisLetter(item.axis);
-                                  // What a called cycle sets depends on what it is given.
-                                  if (depth_ == 0)
-                                    add(page_.sets,
-                                        fmt::format("work offset `{}` in {}", layOut(*set.system), axes));
-                                },
-                                [&](const cycle::SetTool& set) {
-                                  if (depth_ == 0)
-                                    add(page_.sets, fmt::format("{} of tool offset `{}`", ofTool(set.part),
-                                                                layOut(*set.tool)));
-                                },
-                                [&](const cycle::SetStored& set) {
-                                  add(page_.sets, fmt::format("stored value `{}`", set.name.text));
-                                },
-                                [&](const cycle::Call& call) {
-                                  if (depth_ == 0) add(page_.calls, call.cycle.text);
-                                  if (call.called == nullptr) return;
-                                  ++depth_;
-                                  file(*call.called);
-                                  --depth_;
-                                },
-                                [](const auto&) {}},
-                 statement.node);
-  }
-
-  CyclePage& page_;
-  std::set<const cycle::File*> seen_;
-  int depth_ = 0;
-};
 
 std::string kindOf(const cycle::Type& type) {
   std::string out(typeText(type.name));
@@ -108,7 +39,8 @@ void parameter(const cycle::Parameter& parameter, CyclePage& page) {
       break;
     case cycle::Clause::Kind::Range:
       row.condition = fmt::format("{} to {}", layOut(*clause.first), layOut(*clause.second));
-      page.refusals.push_back(fmt::format("`{}` is within {}", parameter.names.front().text, row.condition));
+      for (const cycle::Name& name : parameter.names)
+        page.refusals.push_back(fmt::format("`{}` is within {}", name.text, row.condition));
       break;
     case cycle::Clause::Kind::Group: row.group = clause.text->text; break;
     case cycle::Clause::Kind::Letter: row.letter = clause.letter->text; break;
@@ -159,7 +91,7 @@ CyclePage cyclePage(const cycle::File& file) {
         page.results.push_back(
             {name.text, kindOf(result->type), "", "", result->title ? result->title->text : "", "", ""});
   }
-  Walk(page).file(file);
+  addDeeds(file, page);
   std::string arguments;
   for (const CyclePage::Row& row : page.parameters)
     if (row.initial == "required") arguments += (arguments.empty() ? " " : ", ") + row.name + " = ..";
@@ -189,8 +121,13 @@ void list(std::string& out, const char* head, const std::vector<std::string>& li
     out += "- " + line + "\n";
 }
 
+bool isElsewhere(const CyclePage& page, const std::string& name) {
+  return std::find(page.elsewhere.begin(), page.elsewhere.end(), name) != page.elsewhere.end();
+}
+
 std::vector<std::string> alarmLines(const CyclePage& page) {
   std::vector<std::string> out = page.alarms;
+  if (page.meetStops) out.insert(out.begin(), "A protected move that meets something");
   if (page.missStops) out.insert(out.begin(), "A touch that finds nothing within the overtravel");
   return out;
 }
@@ -216,7 +153,8 @@ std::string markdown(const CyclePage& page) {
   list(out, "Alarms while it runs", alarmLines(page));
   std::vector<std::string> calls;
   for (const std::string& name : page.calls)
-    calls.push_back(fmt::format("[{}]({}.md)", name, fileStem(name)));
+    calls.push_back(isElsewhere(page, name) ? fmt::format("`{}` (no page here)", name)
+                                            : fmt::format("[{}]({}.md)", name, fileStem(name)));
   list(out, "Calls", calls);
   return out;
 }
@@ -321,7 +259,9 @@ std::string html(const CyclePage& page) {
   if (!page.calls.empty()) {
     out += "<h2>Calls</h2>\n<ul>\n";
     for (const std::string& name : page.calls)
-      out += fmt::format("<li><a href=\"{}.html\">{}</a></li>\n", fileStem(name), escaped(name));
+      out += isElsewhere(page, name)
+                 ? fmt::format("<li><code>{}</code> (no page here)</li>\n", escaped(name))
+                 : fmt::format("<li><a href=\"{}.html\">{}</a></li>\n", fileStem(name), escaped(name));
     out += "</ul>\n";
   }
   return document(page.title, out);

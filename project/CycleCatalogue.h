@@ -34,6 +34,9 @@ struct CyclePage {
   std::vector<std::string> calls;  // names of cycles, each once
   std::string example;             // call bore diameter = .. -> it
   bool missStops = false;          // a touch without `else`: nothing found is an alarm
+  bool meetStops = false;          // a protected move: what it meets is an alarm
+  // Of `calls` those that have no page beside this one.
+  std::vector<std::string> elsewhere;
 };
 
 // Of a linked cycle (frontend/cycle/Link.h).
