@@ -105,7 +105,7 @@ std::string commentText(State& state, std::string_view utf8, SourceRange range) 
   for (const char c : plain.text) {
     if (c == '(' || c == ')' || c == '%' || c == ';') {
       changed = true;
-      out += c == ';' ? "," : "";
+      out += c == ';' ? "," : c == '(' ? "[" : c == ')' ? "]" : "";
     } else {
       out += c;
     }

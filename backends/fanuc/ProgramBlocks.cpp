@@ -55,7 +55,9 @@ bool isSimple(const ir::ConditionPtr& condition) {
 
 std::string commentText(const std::string& text, SourceRange range, const ProgramContext& context) {
   if (isPlain(text)) return text;
-  const std::string plain = withoutBrackets(plainText(utf8(text, range, context.sources)).text);
+  std::string plain = plainText(utf8(text, range, context.sources)).text;
+  std::replace(plain.begin(), plain.end(), '(', '[');
+  std::replace(plain.begin(), plain.end(), ')', ']');
   context.diagnostics.report<diag::CommentPlain>(range, plain);
   return plain;
 }

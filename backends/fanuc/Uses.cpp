@@ -61,7 +61,8 @@ Ids movesBy(const ir::CycleStatement& statement) {
 
 bool mayMove(const ir::CycleStatement& statement, const stdlib::Control& control) {
   return match(
-      statement, [](const ir::OneOf<ir::Move, ir::Measure, ir::CallCycle> auto&) { return true; },
+      statement, [](const ir::OneOf<ir::Move, ir::Measure> auto&) { return true; },
+      [](const ir::CallCycle& node) { return node.moves; },
       [&](const ir::OpaqueBlock& node) { return !isWait(node, control); },
       [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::ProbePower, ir::Comment, ir::Assign,
                          ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop,
@@ -86,12 +87,21 @@ bool decides(const ir::Cycle& cycle, const std::vector<std::vector<std::size_t>>
     return stops;
   };
   if (onlyStops(first, next[branch][0]) || onlyStops(second, next[branch][1])) return false;
+  // A work offset that is set moves what comes after it.
+  const auto setsBeforeMove = [&](std::size_t at) {
+    const auto* call = std::get_if<ir::CallCycle>(&cycle.body[at].node);
+    if (call == nullptr || !call->setting) return false;
+    const auto later = reachableFrom(next, at);
+    for (std::size_t i = 0; i < cycle.body.size(); ++i)
+      if (later[i] && mayMove(cycle.body[i], control)) return true;
+    return false;
+  };
   const bool loop = first[branch] || second[branch];
   for (std::size_t i = 0; i < cycle.body.size(); ++i) {
     const bool a = first[i] || i == next[branch][0];
     const bool b = second[i] || i == next[branch][1];
     if (loop ? !a && !b : a == b) continue;
-    if (mayMove(cycle.body[i], control)) return true;
+    if (mayMove(cycle.body[i], control) || setsBeforeMove(i)) return true;
     const auto* assign = std::get_if<ir::Assign>(&cycle.body[i].node);
     if (assign != nullptr && moving.contains(assign->variable)) return true;
   }

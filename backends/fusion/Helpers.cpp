@@ -121,7 +121,7 @@ function PREFIX_number(value) {
     {Helper::Loses, "warnOfDigits", R"(// Says where what is printed is another value than the one given.
 function PREFIX_warnOfDigits(name, value, printed) {
   if (Math.abs(value - printed) > 1e-9) {
-    warning(localize(name + ": " + value + " has more digits than are printed; the machine gets " + printed));
+    warning(name + ": " + value + " has more digits than are printed; the machine gets " + printed);
   }
 }
 )"},

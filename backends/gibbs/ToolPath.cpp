@@ -445,8 +445,11 @@ private:
     const std::optional<DrawnCycle> cycle =
         drawnCycle(node, {[this] { return radius(); }, here_[2], folder_.clearance}, from);
     if (!cycle) {
-      refuse(from.range(), "the cycle `" + node.cycle + "`",
-             "write its touches, which a path can follow, in its place");
+      if (node.cycle == ir::kSurfaceAlong)
+        refuse(from.range(), "a touch along a direction", "touch along an axis, `touch x by 10 mm`");
+      else
+        refuse(from.range(), "the cycle `" + node.cycle + "`",
+               "write its touches, which a path can follow, in its place");
       return;
     }
     for (const ir::CycleStatement& step : cycle->steps)

@@ -168,6 +168,13 @@ private:
           stop(node.message.empty() ? beside : node.message, origin);
         },
         [&](const ir::Alarm& node) {
+          // There are no branches: with its values the program does nothing else. In a post it is written so.
+          if (s_.options.cycleFile) {
+            s_.refuse<diag::MikroprogCannot>(
+                range, fmt::format("with these values the cycle ends in its alarm `{}`", node.message),
+                "a program of fixed values would never pass it; give others with `--set`");
+            return;
+          }
           s_.diagnostics.report<diag::AlarmStops>(range, s_.code("stop"));
           if (s_.remarked.insert("alarm").second)
             s_.remarks.push_back("AN ALARM IS A STOP WITH ITS TEXT AND THE END; ITS NUMBER IS NOT KEPT");

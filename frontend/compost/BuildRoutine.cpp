@@ -157,7 +157,9 @@ void Builder::loose(Parser::LooseContext& context) {
   if (findings_.typographicLines.contains(lineOf(range))) return;
   if (losesText({file_, range.end, range.end})) return; // the label may have stood in what was dropped
   const SourceRange first = rangeOf(*context.getStart());
-  diagnostics_.report<diag::StatementOutsideRoutine>(first);
+  Diagnostic& found = diagnostics_.report<diag::StatementOutsideRoutine>(first);
+  if (sources_.text(first).starts_with('!'))
+    found.note(first, "`!` begins a comment in macros alone; in a Prog it is in braces, `{ .. }`");
 }
 
 Program Builder::finish(const TokenBuffer& tokens) {

@@ -141,7 +141,7 @@ function side_shown(picture, value) {
 // Tells where what is printed is another value than the one given.
 function side_warnOfDigits(name, value, printed) {
   if (Math.abs(value - printed) > 1e-9) {
-    warning(localize(name + ": " + value + " has more digits than are printed; the machine gets " + printed));
+    warning(name + ": " + value + " has more digits than are printed; the machine gets " + printed);
   }
 }
 
