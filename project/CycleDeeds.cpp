@@ -93,6 +93,9 @@ private:
   std::map<std::string, std::optional<bool>, std::less<>> flags_;
 };
 
+// Ways to call cycles that are kept apart; beyond them each alarm counts as one that can come.
+constexpr std::size_t kMostWays = 1000;
+
 // What the statements of a cycle do, those of the cycles that it calls included.
 class Walk {
 public:
@@ -149,6 +152,7 @@ private:
       if (const auto* require = std::get_if<cycle::Require>(&one->node))
         add(page_.alarms,
             require->message ? require->message->text : layOut(*require->condition) + " is not so");
+    if (seen_.size() >= kMostWays) absent.clear();
     ++depth_;
     file(*call.called, absent);
     --depth_;

@@ -19,6 +19,9 @@ constexpr std::array<std::string_view, 14> kFunctions = {"abs",   "sqrt", "sin",
                                                          "asin",  "acos", "atan", "min",   "max",
                                                          "round", "down", "up",   "square"};
 
+// Past the first ones no hint is read, and each costs as much as there are names.
+constexpr int kMostHints = 200;
+
 bool comparesOrder(BinaryOp op) {
   return op == BinaryOp::Less || op == BinaryOp::LessEqual || op == BinaryOp::Greater ||
          op == BinaryOp::GreaterEqual;
@@ -59,8 +62,6 @@ void Checker::unknownName(SourceRange range, const std::string& name) {
     return;
   }
   if (unreadable_.contains(name)) return;
-  // Past the first ones no hint is read, and each costs as much as there are names.
-  constexpr int kMostHints = 200;
   const std::string near = name == "true"              ? "yes"
                            : name == "false"           ? "no"
                            : nameHints_++ < kMostHints ? nameLike(name, symbols_)
@@ -74,6 +75,8 @@ void Checker::unknownName(SourceRange range, const std::string& name) {
 bool Checker::unnamedTouch(const Member& member) {
   constexpr std::array<std::string_view, 5> kMembers = {"at", "at_x", "at_y", "at_z", "error"};
   const std::string& name = member.object.text;
+  if (unnamed_.empty() || nameHints_ >= kMostHints) return false;
+  ++nameHints_;
   if (unreadable_.contains(name) || below_.contains(name) || !nearestName(name, later_).empty() ||
       std::find(kMembers.begin(), kMembers.end(), member.member.text) == kMembers.end())
     return false;
