@@ -1,5 +1,7 @@
 #include "stdlib/ReadCall.h"
 
+#include "stdlib/RefusedLetters.h"
+
 #include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -28,15 +30,6 @@ std::string lack(const MacroSignature& signature, std::string_view letters, std:
   }
   count = parts.size();
   return fmt::format("{}", fmt::join(parts, " and "));
-}
-
-const RefusedLetters* exclusion(const MacroSet& set, std::uint32_t program, std::string_view letters) {
-  const auto at = std::find_if(set.refused.begin(), set.refused.end(), [&](const RefusedLetters& rule) {
-    return std::find(rule.programs.begin(), rule.programs.end(), program) != rule.programs.end() &&
-           std::all_of(rule.letters.begin(), rule.letters.end(),
-                       [&](char letter) { return has(letters, letter); });
-  });
-  return at == set.refused.end() ? nullptr : &*at;
 }
 
 // Chooses the signature, or says what the nearest ones lack.
@@ -70,6 +63,17 @@ void choose(CallReading& out) {
 
 } // namespace
 
+const RefusedLetters* lettersRefused(const MacroSet& set, std::uint32_t program, std::string_view letters,
+                                     char about) {
+  const auto at = std::find_if(set.refused.begin(), set.refused.end(), [&](const RefusedLetters& rule) {
+    return std::find(rule.programs.begin(), rule.programs.end(), program) != rule.programs.end() &&
+           (about == '\0' || has(rule.letters, about)) &&
+           std::all_of(rule.letters.begin(), rule.letters.end(),
+                       [&](char letter) { return has(letters, letter); });
+  });
+  return at == set.refused.end() ? nullptr : &*at;
+}
+
 const ReadArgument* CallReading::find(ArgumentRole role, ir::Axis axis) const {
   const MacroArgument* meaning = signature == nullptr ? nullptr : signature->find(role, axis);
   const auto found = std::find_if(arguments.begin(), arguments.end(),
@@ -95,7 +99,7 @@ CallReading readCall(const MacroSet& set, std::uint32_t program, std::string_vie
     out.at = i;
     return out;
   }
-  out.excluded = exclusion(set, program, letters);
+  out.excluded = lettersRefused(set, program, letters);
   if (out.excluded != nullptr) {
     out.refusal = CallRefusal::Excluded;
     return out;

@@ -3,6 +3,7 @@
 #include "backends/common/MacroCall.h"
 #include "ir/Fold.h"
 #include "stdlib/MacroCycle.h"
+#include "stdlib/RefusedLetters.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,12 +16,14 @@ namespace {
 
 class Tolerances {
 public:
-  Tolerances(const stdlib::MacroSignature& signature, const ExpectedAlong& expected)
-      : signature_(signature), expected_(expected) {}
+  Tolerances(const stdlib::MacroSet& macros, const stdlib::MacroSignature& signature,
+             const ExpectedAlong& expected)
+      : macros_(macros), signature_(signature), expected_(expected) {}
 
   std::vector<Tolerance> take(ir::CallCycle& cycle) {
+    const std::string letters = lettersOf(cycle);
     std::erase_if(cycle.arguments, [&](const ir::CycleArgument& one) {
-      return macroArgument(signature_, one.parameter) == nullptr && !one.moves && isTaken(cycle, one);
+      return !one.moves && !hasPlace(one, letters) && isTaken(cycle, one);
     });
     // A macro compares in its own order, whatever that of the letters is.
     std::stable_sort(checks_.begin(), checks_.end(),
@@ -32,6 +35,20 @@ public:
   }
 
 private:
+  std::string lettersOf(const ir::CallCycle& cycle) const {
+    std::string out;
+    for (const ir::CycleArgument& one : cycle.arguments)
+      if (const auto* place = macroArgument(signature_, one.parameter)) out += place->letter;
+    for (const stdlib::MacroArgument& one : signature_.arguments)
+      if (cycle.setting && one.role == stdlib::ArgumentRole::System) out += one.letter;
+    return out;
+  }
+  // The macro takes it in a call of these letters.
+  bool hasPlace(const ir::CycleArgument& one, const std::string& letters) const {
+    const stdlib::MacroArgument* place = macroArgument(signature_, one.parameter);
+    if (place == nullptr) return false;
+    return stdlib::lettersRefused(macros_, signature_.program, letters, place->letter) == nullptr;
+  }
   bool isTaken(const ir::CallCycle& cycle, const ir::CycleArgument& one) {
     constexpr stdlib::ArgumentRole kOrder[] = {
         stdlib::ArgumentRole::UpperLimit, stdlib::ArgumentRole::SizeTolerance,
@@ -121,6 +138,7 @@ private:
     return ir::unary(ir::UnaryOp::SquareRoot, out);
   }
 
+  const stdlib::MacroSet& macros_;
   const stdlib::MacroSignature& signature_;
   const ExpectedAlong& expected_;
   struct Ranked {
@@ -133,9 +151,10 @@ private:
 
 } // namespace
 
-std::vector<Tolerance> takeTolerances(ir::CallCycle& cycle, const stdlib::MacroSignature& signature,
+std::vector<Tolerance> takeTolerances(ir::CallCycle& cycle, const stdlib::MacroSet& macros,
+                                      const stdlib::MacroSignature& signature,
                                       const ExpectedAlong& expected) {
-  return Tolerances(signature, expected).take(cycle);
+  return Tolerances(macros, signature, expected).take(cycle);
 }
 
 } // namespace dotek::backends

@@ -2,9 +2,12 @@
 
 #include "ir/Fold.h"
 #include "ir/Linear.h"
+#include "stdlib/RefusedLetters.h"
 #include "stdlib/SearchTravel.h"
 
 #include <algorithm>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace dotek::backends {
 
@@ -278,6 +281,18 @@ MacroCall macroCall(const stdlib::MacroSignature& signature, const ir::CallCycle
 
 MacroCall macroCall(const stdlib::MacroSignature& signature, const ir::Move& move, const CallValues& values) {
   return callOf(signature, move, values);
+}
+
+std::string refusedTogether(const stdlib::MacroSet& macros, const MacroCall& call) {
+  std::string letters;
+  for (const GivenArgument& one : call.arguments)
+    letters += one.argument->letter;
+  const auto* rule = stdlib::lettersRefused(macros, call.signature->program, letters);
+  if (rule == nullptr) return "";
+  std::vector<std::string> shown;
+  for (const char letter : rule->letters)
+    shown.push_back(std::string("`") + letter + "`");
+  return fmt::format("{} of P{} together", fmt::join(shown, " and "), call.signature->program);
 }
 
 std::optional<ir::Axis> axisNotTaken(const stdlib::MacroSignature& signature, const ir::Move& move) {

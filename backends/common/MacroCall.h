@@ -87,11 +87,16 @@ MacroCall macroCall(const stdlib::MacroSignature& signature, const ir::Move& mov
 // An axis that the move names and the protected move of the set does not take; nothing: it takes all.
 std::optional<ir::Axis> axisNotTaken(const stdlib::MacroSignature& signature, const ir::Move& move);
 
-// Reports the first argument that the call lacks, or that it has no way. `state` has refuse<Id>(range,
-// arguments...).
+// "`S` and `H` of P9811 together": letters of the call that the macro refuses together; "": none.
+std::string refusedTogether(const stdlib::MacroSet& macros, const MacroCall& call);
+
+// Reports the first argument that the call lacks, that it has no way, or letters that exclude each other.
+// `state` has refuse<Id>(range, arguments...).
 template <class State>
 void refuseMissing(State& state, const stdlib::MacroSet& macros, const MacroCall& call, SourceRange range) {
   if (call.hasNoWay) state.template refuse<diag::MacroSetCannot>(range, macros.title, kNoWay);
+  if (const std::string together = refusedTogether(macros, call); !together.empty())
+    state.template refuse<diag::MacroSetCannot>(range, macros.title, together);
   if (call.missing.empty()) return;
   const stdlib::MacroArgument& argument = *call.missing.front();
   const std::string letter(1, argument.letter);

@@ -245,7 +245,7 @@ void writeCycle(State& state, const ir::CallCycle& given, const ir::Origin& orig
   ir::CallCycle cycle = given;
   CallValues values = valuesFor(state, origin);
   const std::vector<Tolerance> tolerances =
-      takeTolerances(cycle, *signature, [&](const ir::CallCycle& of, ir::Axis axis) {
+      takeTolerances(cycle, state.macros, *signature, [&](const ir::CallCycle& of, ir::Axis axis) {
         const ir::ExpressionPtr at = expectedAt(state, of, axis, origin);
         return at == nullptr ? nullptr : tidy(at);
       });

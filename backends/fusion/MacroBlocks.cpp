@@ -465,7 +465,7 @@ void MacroBlocks::cycle(const ir::CallCycle& given, const ir::Origin& origin, st
     return at_[ir::indexOf(axis)].value;
   };
   std::vector<Tolerance> tolerances;
-  if (state_.options.control.ifThen) tolerances = takeTolerances(call, *signature, expects);
+  if (state_.options.control.ifThen) tolerances = takeTolerances(call, macros, *signature, expects);
   CallValues asked = values(origin);
   std::optional<ir::OffsetSetting> own; // what the blocks set themselves, after the tolerances
   if (call.setting) {
