@@ -299,6 +299,7 @@ Outcome convert(const ConvertOptions& given) {
   ConvertOptions options = given;
   Outcome outcome = guarded(options.common, options.inputs, [&](Session& session) {
     takeControls(options, session);
+    takeProbeCodes(options, session);
     if (session.diagnostics().hasErrors()) return outcomeOf(session, "");
     return ConvertCommand(options, session).run();
   });

@@ -206,6 +206,7 @@ Outcome verify(const VerifyOptions& given) {
   return guarded(given.common, given.inputs, [&](Session& session) {
     VerifyOptions options = given;
     takeControls(options, session);
+    takeProbeCodes(options, session);
     if (session.diagnostics().hasErrors()) return outcomeOf(session, "");
     if (options.inputs.size() == 1 && isCycleFile(options.inputs.front(), session))
       return verifyCycleFile(options, session);

@@ -73,6 +73,30 @@ TEST_CASE("sim: the codes that switch the probe come from dotek.toml, too") {
   CHECK_MESSAGE(byJob.status == 0, byJob.err);
 }
 
+TEST_CASE("verify and convert: the codes that switch the probe of a program come from dotek.toml, too") {
+  const DataFolder folder;
+  const std::string program = "O1000\nG21 G90 G54\nM71\nG31 X#1 F100.\n#500=#5061\nM72\nM99\n";
+  folder.write("run.nc", program);
+  const std::vector<std::string> verify = {"verify",    "run.nc",      "--to",    "fanuc",
+                                           "--control", "fanuc-0i-md", "--cases", "20"};
+  CHECK(runDotek(verify, folder.path()).out.find("DOES NOT AGREE") == std::string::npos);
+  CHECK(runDotek(verify, folder.path()).out.find("UNDECIDED") != std::string::npos);
+  folder.write("dotek.toml", "schema = 1\nprobe_on = \"M71\"\nprobe_off = \"M72\"\n");
+  const CommandResult known = runDotek(verify, folder.path());
+  CHECK_MESSAGE(known.out.find("AGREES: 20 of 20") != std::string::npos, known.out + known.err);
+  // A flag is before the file.
+  std::vector<std::string> other = verify;
+  other.insert(other.end(), {"--probe-on", "M73"});
+  CHECK(runDotek(other, folder.path()).out.find("AGREES: 20 of 20") == std::string::npos);
+  fs::create_directory(fs::path(folder.path()) / "old");
+  folder.write("old/run.nc", program);
+  folder.write("old/dotek.toml", "schema = 1\nprobe_on = \"M75\"\n");
+  const CommandResult two =
+      runDotek({"convert", "run.nc", "old/run.nc", "--to", "fanuc", "-d", "out"}, folder.path());
+  CHECK(two.status == 1);
+  CHECK_MESSAGE(two.err.find("[probe-codes-differ]") != std::string::npos, two.err);
+}
+
 TEST_CASE("sim: the picture of a run whose lengths count at the tip shows the probe") {
   const DataFolder folder;
   folder.write("mill.toml",
