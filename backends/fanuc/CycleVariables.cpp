@@ -10,12 +10,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 
 namespace dotek::backends::fanuc {
 
 namespace {
 
 constexpr std::uint32_t kFirstSystem = 1000; // the first variable that is the control's own
+
+// The offsets of work systems lie in the same variables.
+bool samePlaces(const stdlib::Control& one, const stdlib::Control& other) {
+  const stdlib::SystemVariables& a = one.variables;
+  const stdlib::SystemVariables& b = other.variables;
+  return a.externalX == b.externalX && a.workOffsetX == b.workOffsetX && a.systemStep == b.systemStep &&
+         a.axisStep == b.axisStep;
+}
 
 std::optional<std::uint32_t> wholeOf(const ir::ExpressionPtr& number) {
   const ir::ExpressionPtr simple = tidy(number);
@@ -82,12 +91,7 @@ private:
                                                   state_.options.sourceControl.title);
   }
 
-  bool sameOffsets() const {
-    const stdlib::SystemVariables& here = state_.control.variables;
-    const stdlib::SystemVariables& there = state_.options.sourceControl.variables;
-    return here.externalX == there.externalX && here.workOffsetX == there.workOffsetX &&
-           here.systemStep == there.systemStep && here.axisStep == there.axisStep;
-  }
+  bool sameOffsets() const { return samePlaces(state_.control, state_.options.sourceControl); }
 
   void stored(ir::Store& store) {
     const auto number = wholeOf(store.number);
@@ -120,6 +124,40 @@ bool writesWorkOffset(const ir::OpaqueBlock& block, const stdlib::Control& from,
   return offset && workSystemVariable(from) && workSystemVariable(to);
 }
 
+// What the block has beside what both controls are known to read alike: "its `P` is computed", "it has
+// `L20`".
+std::string unlikeWorkOffset(const ir::OpaqueBlock& block) {
+  for (const ir::Word& word : block.words) {
+    if (std::string_view("GXYZN").find(word.address) != std::string_view::npos) continue;
+    const double* number = word.value == nullptr ? nullptr : ir::constantValue(word.value);
+    if (word.address == 'L' && number != nullptr && *number == 2) continue;
+    if (word.address == 'P' && number != nullptr && *number >= 1 && *number <= 6) continue;
+    return number == nullptr ? fmt::format("its `{}` is computed", word.address)
+                             : fmt::format("it has `{}{}`", word.address, numberText(*number));
+  }
+  return "it has no `L2`";
+}
+
+// "`#[5223+20*[n-54]]=` sets an offset of G54 to G59 in Z": of the first axis of the block.
+std::string offsetByVariable(const ir::OpaqueBlock& block, const stdlib::Control& control) {
+  const stdlib::SystemVariables& v = control.variables;
+  for (const ir::Word& word : block.words)
+    if (const auto at = std::string_view("XYZ").find(word.address); at != std::string_view::npos)
+      return fmt::format("`#[{}+{}*[n-54]]=` sets an offset of G54 to G59 in {}",
+                         *v.workOffsetX + static_cast<int>(at) * v.axisStep, v.systemStep, word.address);
+  return "";
+}
+
+void refuseDataInput(State& state, const ir::OpaqueBlock& block, SourceRange range) {
+  const stdlib::Control& from = state.options.sourceControl;
+  const bool byVariable = workSystemVariable(from) && workSystemVariable(state.control) &&
+                          from.variables.workOffsetX && samePlaces(from, state.control);
+  const std::string remedy = byVariable ? offsetByVariable(block, state.control) : "";
+  state.refuse<diag::DataInputRefused>(range, from.title, state.control.title, unlikeWorkOffset(block),
+                                       remedy.empty() ? "take the block out of the branch"
+                                                      : remedy + " on both");
+}
+
 } // namespace
 
 void translateVariables(State& state) {
@@ -132,7 +170,8 @@ std::string copiedText(State& state, const ir::OpaqueBlock& block, const ir::Ori
   const bool reads = from.decimal == state.control.decimal && from.increment == state.control.increment;
   const bool offset = !same && writesWorkOffset(block, from, state.control);
   std::string text, foreign;
-  bool unlisted = false; // the code that is foreign, by the control of the source
+  bool unlisted = false;  // the code that is foreign, by the control of the source
+  bool dataInput = false; // it is the code of both, and its words are what may differ
   for (const ir::Word& given : block.words) {
     if (given.address == 'N') continue; // the source's own numbering
     const double* number = given.value == nullptr ? nullptr : ir::constantValue(given.value);
@@ -150,6 +189,8 @@ std::string copiedText(State& state, const ir::OpaqueBlock& block, const ir::Ori
       if (!known && foreign.empty()) {
         foreign = std::string(1, given.address) + (number == nullptr ? ".." : numberText(*number));
         unlisted = here == nullptr && number != nullptr;
+        dataInput = here != nullptr && there != nullptr && here->function == there->function &&
+                    here->function == stdlib::Function::DataInput;
       }
     }
     text += text.empty() ? "" : " ";
@@ -166,6 +207,10 @@ std::string copiedText(State& state, const ir::OpaqueBlock& block, const ir::Ori
                          std::string_view("MST").find(given.address) != std::string_view::npos;
       text += word(state, given.address, given.value, whole ? Form::Whole : Form::Source, origin);
     }
+  }
+  if (dataInput) {
+    refuseDataInput(state, block, origin.range());
+    return "";
   }
   if (!foreign.empty()) {
     Diagnostic& refused = state.refuse<diag::OpaqueBlockRefused>(

@@ -80,6 +80,25 @@ TEST_CASE("fanuc copied: what ends as the caller provides it is not refused") {
   CHECK(Target().emit(cycle.cycle).codes().empty());
 }
 
+TEST_CASE("fanuc copied: G10 with other words than both controls are known to read alike names them") {
+  const auto toAnother = [](const std::string& block, bool computed) {
+    Maker cycle;
+    const VariableId system = cycle.field("WCS", 54, ir::Kind::WorkOffset);
+    ir::OpaqueBlock given = copied(block);
+    if (computed) given.words[2].value = minus(use(system), number(53));
+    cycle.add(std::move(given));
+    return Target("inspection-plus", "fanuc-31i-b").emit(cycle.cycle);
+  };
+  CHECK(toAnother("G10 L2 P2 Z5.", false).codes().empty());
+  const Emission computed = toAnother("G10 L2 P2 Y5.", true);
+  CHECK(computed.codes() == Codes{"data-input-refused"});
+  CHECK(computed.all().find("`P` is computed") != std::string::npos);
+  CHECK(computed.all().find("`#[5222+20*[n-54]]=`") != std::string::npos);
+  CHECK(toAnother("G10 L2 P0 Y5.", false).all().find("it has `P0`") != std::string::npos);
+  CHECK(toAnother("G10 L20 P2 Y5.", false).all().find("it has `L20`") != std::string::npos);
+  CHECK(toAnother("G10 L12 P2 R5.", false).all().find("take the block out") != std::string::npos);
+}
+
 TEST_CASE("fanuc copied: one path through the branch is enough to refuse") {
   Maker cycle;
   const VariableId a = cycle.field("a", 1);
