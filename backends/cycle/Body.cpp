@@ -103,6 +103,7 @@ private:
     }
     s_.add("end", origin);
     s_.measured.clear(); // what was measured last depends on the way here
+    s_.joined = true;
     s_.at = {};
     return after;
   }

@@ -44,7 +44,9 @@ public:
       if (found != state_.measured.end())
         return {found->second, found->second.find(' ') == std::string::npos ? kFactor : kSum};
       return refuse(fmt::format("{} of this measurement", ir::resultTitle(result->name)),
-                    "take what the touch or the called cycle gives instead");
+                    state_.measured.empty() && state_.joined
+                        ? "what was measured last depends on the way here; copy it after each of the calls"
+                        : "take what the touch or the called cycle gives instead");
     }
     if (const auto* number = std::get_if<ir::MachineVariable>(&expression->node)) {
       const double* value = ir::constantValue(number->number);

@@ -95,7 +95,7 @@ bool MacroBlocks::block(const std::vector<const ir::CycleStatement*>& statements
           const bool length = isOnly("NH", 43) || isOnly("N", 49);
           for (Place& place : at_)
             if (!length || &place == &at_[ir::indexOf(ir::Axis::Z)]) place.value = nullptr;
-          last_ = nullptr;
+          setLast(nullptr);
         },
         [&](const ir::SetMode& node) {
           if (node.mode == ir::Mode::WorkSystem) {
@@ -127,11 +127,11 @@ bool MacroBlocks::block(const std::vector<const ir::CycleStatement*>& statements
         *one, [&](const ir::Move& node) { move(node, origin, lines); },
         [&](const ir::Measure& node) {
           measure(node, origin, lines);
-          last_ = one;
+          setLast(one);
         },
         [&](const ir::CallCycle& node) {
           cycle(node, origin, lines);
-          last_ = one;
+          setLast(one);
         },
         [&](const ir::ProbePower& node) {
           if (isMacro(state_, *one))
@@ -314,7 +314,7 @@ void MacroBlocks::move(const ir::Move& move, const ir::Origin& origin, std::vect
       state_.refuse<diag::MacroSetCannot>(origin.range(), state_.options.macros.title,
                                           std::string("a protected move along ") + ir::letterOf(*axis));
     call(macroCall(*signature, move, values(origin)), origin, lines);
-    last_ = nullptr; // the macro works in the variables of the results
+    setLast(nullptr); // the macro works in the variables of the results
   } else {
     Text text;
     code(Function::Absolute, "absolute programming", origin, text);
@@ -594,7 +594,7 @@ void MacroBlocks::switchProbe(const ir::ProbePower& power, const ir::Origin& ori
     state_.refuse<diag::NoProbeCode>(origin.range(), state_.options.control.title,
                                      state_.options.macros.title, power.on ? "on" : "off");
   lines.push_back(std::move(text));
-  last_ = nullptr;
+  setLast(nullptr);
 }
 
 } // namespace dotek::backends::fusion

@@ -1,11 +1,94 @@
 // Results of measurements in blocks for another macro set: copied, or computed from what its macros leave.
 #include "backends/common/MacroCall.h"
 #include "backends/fusion/State.h"
+#include "ir/Dataflow.h"
 #include "ir/Fold.h"
 #include "support/Decimal.h"
 #include "support/messages/Fanuc.h"
 
+#include <algorithm>
+
 namespace dotek::backends::fusion {
+
+namespace {
+
+// Measure or CallCycle whose results the macros hold; nullptr: on some way none.
+using Lasts = std::set<const ir::CycleStatement*>;
+
+} // namespace
+
+bool MacroBlocks::overwritesResults(const ir::CycleStatement& statement) const {
+  return ir::match(
+      statement, [](const ir::Move& node) { return node.motion == ir::Motion::Protected; },
+      [](const ir::OpaqueBlock& node) {
+        return std::any_of(node.words.begin(), node.words.end(),
+                           [](const ir::Word& word) { return word.address != 'N' && word.address != 'T'; });
+      },
+      [&](const ir::ProbePower& node) {
+        return statement.origin.addresses.find('P') != std::string::npos ||
+               state_.options.macros.find(node.on ? stdlib::Intent::ProbeOn : stdlib::Intent::ProbeOff) !=
+                   nullptr;
+      },
+      [](const ir::OneOf<ir::Measure, ir::CallCycle, ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Comment,
+                         ir::Assign, ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop,
+                         ir::Alarm> auto&) { return false; });
+}
+
+void MacroBlocks::join(std::size_t label) {
+  const auto& body = state_.cycle.body;
+  if (lasts_.empty()) {
+    const auto facts = ir::factsBefore(
+        body, Lasts{nullptr},
+        [&](std::size_t at, std::size_t, const Lasts& before) -> Lasts {
+          const auto& node = body[at].node;
+          if (std::holds_alternative<ir::Measure>(node) || std::holds_alternative<ir::CallCycle>(node))
+            return {&body[at]};
+          return overwritesResults(body[at]) ? Lasts{nullptr} : before;
+        },
+        [](Lasts& into, const Lasts& other) {
+          const std::size_t before = into.size();
+          into.insert(other.begin(), other.end());
+          return into.size() != before;
+        });
+    for (const auto& fact : facts)
+      lasts_.push_back(fact.value_or(Lasts()));
+  }
+  joined_ = label < lasts_.size() ? lasts_[label] : Lasts{nullptr};
+  if (joined_.size() == 1 && *joined_.begin() == last_)
+    joined_.clear();
+  else
+    last_ = nullptr;
+}
+
+FoundResult MacroBlocks::found(ir::ResultName name) const {
+  const auto after = [&](const ir::CycleStatement* measured) {
+    const stdlib::MacroSignature* signature =
+        measured == nullptr ? nullptr : signatureOf(state_.options.macros, *measured);
+    return signature == nullptr ? FoundResult() : resultAfter(*signature, *measured, name);
+  };
+  if (last_ != nullptr) return after(last_);
+  FoundResult out;
+  for (const ir::CycleStatement* measured : joined_) {
+    const FoundResult one = after(measured);
+    if (one.result == nullptr || one.instead) return {};
+    if (out.result != nullptr && out.result->variable != one.result->variable) return {};
+    out = one;
+  }
+  return out;
+}
+
+void MacroBlocks::refuseResult(ir::ResultName name, SourceRange range) {
+  const bool measures = std::any_of(joined_.begin(), joined_.end(), [](const auto* one) { return one; });
+  if (last_ == nullptr && measures)
+    state_.refuse<diag::ResultOfSeveral>(range, ir::resultTitle(name), state_.options.macros.title);
+  else
+    state_.refuse<diag::ResultUnknown>(range, state_.options.macros.title, ir::resultTitle(name));
+}
+
+void MacroBlocks::setLast(const ir::CycleStatement* measured) {
+  last_ = measured;
+  joined_.clear();
+}
 
 bool MacroBlocks::errorText(ir::ResultName name, const stdlib::MacroSignature& signature,
                             const ir::Origin& origin, Text& text) {
@@ -55,13 +138,12 @@ void MacroBlocks::store(const ir::Store& store, const ir::Origin& origin, std::v
   }
   const stdlib::MacroSignature* signature =
       last_ == nullptr ? nullptr : signatureOf(state_.options.macros, *last_);
-  const FoundResult known =
-      signature == nullptr ? FoundResult() : resultAfter(*signature, *last_, result->name);
-  const stdlib::MacroResult* found = known.result;
+  const FoundResult known = found(result->name);
   if (known.instead)
-    state_.diagnostics.report<diag::ResultDiffers>(
-        store.value->range, found->variable, state_.options.macros.title, ir::resultTitle(*known.instead));
-  if (found == nullptr) {
+    state_.diagnostics.report<diag::ResultDiffers>(store.value->range, known.result->variable,
+                                                   state_.options.macros.title,
+                                                   ir::resultTitle(*known.instead));
+  if (known.result == nullptr) {
     if (state_.failed) return; // the measurement was refused
     Text computed;
     computed.add("#" + numberText(*number) + "=");
@@ -69,12 +151,10 @@ void MacroBlocks::store(const ir::Store& store, const ir::Origin& origin, std::v
       lines.push_back(std::move(computed));
       return;
     }
-    state_.refuse<diag::ResultUnknown>(origin.range(), state_.options.macros.title,
-                                       ir::resultTitle(result->name));
-    return;
+    return refuseResult(result->name, origin.range());
   }
   Text text;
-  text.add("#" + numberText(*number) + "=#" + std::to_string(found->variable));
+  text.add("#" + numberText(*number) + "=#" + std::to_string(known.result->variable));
   lines.push_back(std::move(text));
 }
 

@@ -61,37 +61,6 @@ bool isRaised(const std::vector<ir::PrintedBlock>& blocks, int number) {
   return false;
 }
 
-// Whether results of measurements are the same on every way to the label: nothing that changes them is
-// between it and the jumps to it, and no other jump leads in between.
-bool isSameFrom(const std::vector<ir::CycleStatement>& body, std::size_t label) {
-  const auto targetOf = [](const ir::CycleStatement& one) -> std::optional<ir::LabelId> {
-    if (const auto* branch = std::get_if<ir::Branch>(&one.node)) return branch->target;
-    if (const auto* jump = std::get_if<ir::Jump>(&one.node)) return jump->target;
-    return std::nullopt;
-  };
-  if (label >= body.size()) return false;
-  const ir::LabelId own = std::get<ir::Label>(body[label].node).label;
-  std::size_t first = label, last = label;
-  for (std::size_t i = 0; i < body.size(); ++i)
-    if (targetOf(body[i]) == own) {
-      first = std::min(first, i);
-      last = std::max(last, i);
-    }
-  for (std::size_t i = first; i <= last; ++i) {
-    const bool changes = ir::match(
-        body[i],
-        [](const ir::OneOf<ir::Measure, ir::CallCycle, ir::Move, ir::OpaqueBlock> auto&) { return true; },
-        [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::ProbePower, ir::Comment,
-                           ir::Assign, ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop,
-                           ir::Alarm> auto&) { return false; });
-    if (changes) return false;
-    const auto* inner = std::get_if<ir::Label>(&body[i].node);
-    for (std::size_t j = 0; inner != nullptr && j < body.size(); ++j)
-      if (targetOf(body[j]) == inner->label && (j < first || j > last)) return false;
-  }
-  return true;
-}
-
 // "" where there is none of one argument in brackets that means the same.
 std::string_view functionOf(ir::UnaryOp op, bool wholeRound) {
   switch (op) {
@@ -128,9 +97,10 @@ void MacroBlocks::flow(const ir::CycleStatement& statement) {
   match(
       statement,
       [&](const ir::Label& node) {
-        // Over one statement: that one has said what it changes.
         const auto& body = state_.cycle.body;
         const auto at = static_cast<std::size_t>(&statement - body.data());
+        join(at);
+        // Over one statement: that one has said where it leads.
         std::size_t jumps = 0;
         for (const ir::CycleStatement& one : body) {
           const auto* branch = std::get_if<ir::Branch>(&one.node);
@@ -142,7 +112,6 @@ void MacroBlocks::flow(const ir::CycleStatement& statement) {
             at >= 2 && at < body.size() ? std::get_if<ir::Branch>(&body[at - 2].node) : nullptr;
         if (jumps == 1 && over != nullptr && over->target == node.label) return;
         forget();
-        if (!isSameFrom(body, at)) last_ = nullptr;
       },
       [&](const ir::Store& node) {
         const double* number = ir::constantValue(node.number);
@@ -198,8 +167,7 @@ void MacroBlocks::macro(Text& text, const ir::ExpressionPtr& value, const ir::Or
       [&](const ir::MeasuredResult& node) {
         const stdlib::MacroSignature* signature =
             last_ == nullptr ? nullptr : signatureOf(state_.options.macros, *last_);
-        const FoundResult known =
-            signature == nullptr ? FoundResult() : resultAfter(*signature, *last_, node.name);
+        const FoundResult known = found(node.name);
         if (known.instead)
           state_.diagnostics.report<diag::ResultDiffers>(value->range, known.result->variable,
                                                          state_.options.macros.title,
@@ -207,8 +175,7 @@ void MacroBlocks::macro(Text& text, const ir::ExpressionPtr& value, const ir::Or
         if (known.result != nullptr)
           text.add("#" + std::to_string(known.result->variable));
         else if (signature == nullptr || !errorText(node.name, *signature, origin, text))
-          state_.refuse<diag::ResultUnknown>(origin.range(), state_.options.macros.title,
-                                             ir::resultTitle(node.name));
+          refuseResult(node.name, origin.range());
       },
       [&](const ir::Unary& node) {
         if (node.op == ir::UnaryOp::NullAsZero) return macro(text, node.operand, origin);

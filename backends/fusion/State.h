@@ -176,6 +176,14 @@ private:
   // "#138-[12.5]": an error that the macros do not leave, from what they do; false: not known.
   bool errorText(ir::ResultName name, const stdlib::MacroSignature& signature, const ir::Origin& origin,
                  Text& text);
+  void setLast(const ir::CycleStatement* measured);
+  // At a label: what holds on all ways to it.
+  void join(std::size_t label);
+  bool overwritesResults(const ir::CycleStatement& statement) const;
+  // Where the result is after the last measurement; where several may be the last, in the variable that all
+  // of them leave it in.
+  FoundResult found(ir::ResultName name) const;
+  void refuseResult(ir::ResultName name, SourceRange range);
   void store(const ir::Store& store, const ir::Origin& origin, std::vector<Text>& lines);
   void switchProbe(const ir::ProbePower& power, const ir::Origin& origin, std::vector<Text>& lines);
   bool leavesModes(const ir::OpaqueBlock& block);
@@ -193,12 +201,15 @@ private:
   Place at_[3];
   Place expected_[3];       // where the last measurement expects the feature
   bool wholeRound_ = false; // ROUND rounds to whole numbers, in an assignment; in a word to its increment
-  const ir::CycleStatement* last_ = nullptr; // Measure or CallCycle whose results are
-  const ir::Origin* incremental_ = nullptr;  // of the G91 that is in force in the source
-  const ir::Origin* opaque_ = nullptr;       // of the copied block that is looked at
-  bool overwritten_ = false;                 // by a G90 of ours
-  bool waits_ = false;                       // the next line reads where the axes are
-  std::map<std::string, int> alarms_;        // numbers of alarms of ours, by their texts
+  // Measure or CallCycle whose results the macros hold; nullptr: none, or it depends on the way.
+  const ir::CycleStatement* last_ = nullptr;
+  std::set<const ir::CycleStatement*> joined_; // where it depends on the way: each; nullptr: on some way none
+  std::vector<std::set<const ir::CycleStatement*>> lasts_; // before each statement
+  const ir::Origin* incremental_ = nullptr;                // of the G91 that is in force in the source
+  const ir::Origin* opaque_ = nullptr;                     // of the copied block that is looked at
+  bool overwritten_ = false;                               // by a G90 of ours
+  bool waits_ = false;                                     // the next line reads where the axes are
+  std::map<std::string, int> alarms_;                      // numbers of alarms of ours, by their texts
 };
 
 // ---- Properties.cpp ----
