@@ -152,11 +152,16 @@ bool CaseRunner::prepare() {
 
 // To the last place that the post prints of them.
 void CaseRunner::roundHosts(verify::Case& drawn) const {
-  for (const auto& [name, places] : plan_.hostDecimals) {
+  const auto round = [&](const std::string& name, int places) {
     const auto host = drawn.hosts.find(name);
     const double unit = std::pow(10.0, places);
     if (host != drawn.hosts.end() && !plan_.fixedHosts.contains(name))
       host->second = std::round(host->second * unit) / unit;
+  };
+  for (const auto& [name, places] : plan_.hostDecimals) {
+    round(name, places);
+    // One plane with the clearance, where the path goes there (clearOnRetract).
+    if (target_ == nullptr && name == "clearance") round("retract", places);
   }
 }
 
@@ -382,10 +387,13 @@ std::optional<std::vector<double>> CaseRunner::nominalMisses(const verify::Case&
   return out;
 }
 
-// A clearance that is given has to lie between the two highest levels of the path, as a drawn one does.
+// A clearance that is given, or that the post prints with fewer digits, has to lie between the two highest
+// levels of the path, as a drawn one does.
 std::string CaseRunner::whyNotClear(const Values& values) const {
-  const auto given = plan_.fixedHosts.find("clearance");
-  if (given == plan_.fixedHosts.end()) return "";
+  const auto given = values.drawn.hosts.find("clearance");
+  if (given == values.drawn.hosts.end() ||
+      !(plan_.fixedHosts.contains("clearance") || plan_.hostDecimals.contains("clearance")))
+    return "";
   constexpr double kSame = 1e-6;
   const std::vector<sim::Point3>& points = values.path->points;
   double highest = points[1].z;
@@ -497,6 +505,7 @@ bool CaseRunner::readPosted(Values& values) {
   if (sourceSet_ != nullptr && plan_.sourceMacros != plan_.targetMacros && halvesBetweenSteps(program))
     values.losesDigits = true;
   posted->code = sim::compile({&program}, *inputs_->sourceControl, posted->sources);
+  posted->watching = sim::safeMoves({&program}, *inputs_->sourceControl);
   values.posted = std::move(posted);
   findReads(values);
   return true;
@@ -521,6 +530,7 @@ verify::Record CaseRunner::runPosted(const Values& values, sim::World& world, co
     if (passesUnstated()) meaning->passUnstated();
     if (way == verify::Stand::Way::MovePath) meaning->touchApart();
   }
+  sourceStand_->watchOnly(values.posted->watching);
   return sourceStand_->run(values.posted->code, world, entry, values.posted->stores,
                            meaning ? &*meaning : nullptr, way, interference);
 }

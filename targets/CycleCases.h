@@ -148,7 +148,7 @@ private:
   std::map<std::string, bool> moving_; // fields of which Questions knows whether they move something
 
   const stdlib::MacroSet* sourceSet_ = nullptr;
-  std::optional<verify::Stand> sourceStand_;
+  mutable std::optional<verify::Stand> sourceStand_; // told what the posted program guards, before each run
   std::unique_ptr<Verification> target_;   // nullptr: no translation
   std::unique_ptr<NominalFields> nominal_; // where target_ wants it
 };

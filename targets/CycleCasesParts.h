@@ -2,6 +2,7 @@
 #pragma once
 
 #include "ir/Program.h"
+#include "sim/machine/SafeMoves.h"
 #include "targets/CycleCases.h"
 #include "verify/Variables.h"
 
@@ -12,6 +13,7 @@ struct CaseRunner::Posted {
   SourceMap sources;
   ir::ProgramFile file;
   sim::Bytecode code;
+  sim::BlockSet watching; // bare skip moves that go to a position
   std::set<std::uint32_t> stores;
   std::vector<verify::ProgramVariable> reads;      // common variables, before anything writes them
   bool stopsSpindle = false, stopsCoolant = false; // by codes of its own

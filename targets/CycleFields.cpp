@@ -2,9 +2,11 @@
 
 #include "frontend/gibbs/Ast.h"
 #include "frontend/gibbs/Cycle.h"
+#include "ir/Fold.h"
 #include "ir/Match.h"
 #include "ir/Rewrite.h"
 #include "ir/Walk.h"
+#include "support/Picture.h"
 
 #include <algorithm>
 #include <functional>
@@ -12,6 +14,7 @@
 #include <map>
 #include <set>
 #include <utility>
+#include <variant>
 
 namespace dotek::targets {
 
@@ -192,6 +195,16 @@ bool readsEntryHeight(const ir::Cycle& cycle, const stdlib::Control& control) {
   return reads;
 }
 
+// Of host inputs that the form prints, for a branch of which nothing says it.
+void takePictures(const LoweringInputs& inputs, VerifyPlan& plan) {
+  if (inputs.form)
+    for (const auto* entries : {&inputs.form->commands, &inputs.form->numerics})
+      for (const auto& [name, entry] : *entries)
+        if (!entry.value.empty() && !entry.picture.empty())
+          if (const auto picture = Picture::parse(entry.picture); std::holds_alternative<Picture>(picture))
+            plan.hostDecimals.emplace(entry.value, std::get<Picture>(picture).decimals());
+}
+
 } // namespace
 
 void takeFields(const LoweredCycle& lowered, const CycleFolder& folder, const LoweringInputs& inputs,
@@ -211,6 +224,7 @@ void takeFields(const LoweredCycle& lowered, const CycleFolder& folder, const Lo
   for (const auto& [id, places] : decimals)
     if (const ir::Variable& host = lowered.cycle.variable(id); host.role == ir::Role::Host)
       plan.hostDecimals.emplace(host.name, places);
+  if (lowered.printed.empty()) takePictures(inputs, plan);
   plan.computesPlaces = computesPlaces(lowered.cycle);
   if (inputs.sourceControl) plan.startsOnRetract = readsEntryHeight(lowered.cycle, *inputs.sourceControl);
   plan.bounds = std::make_shared<verify::Bounds>(lowered.cycle);
@@ -226,7 +240,9 @@ void takeFields(const LoweredCycle& lowered, const CycleFolder& folder, const Lo
     field.initial = variable.defaultValue;
     field.thresholds.assign(compared.begin(), compared.end());
     if (const auto places = decimals.find(id); places != decimals.end()) field.decimals = places->second;
-    if (const auto list = offered.find(gibbs::foldCase(variable.name)); list != offered.end())
+    // What nothing reads may be anything.
+    if (const auto list = offered.find(gibbs::foldCase(variable.name));
+        list != offered.end() && ir::uses(lowered.cycle, id))
       field.choices = list->second;
     if (limits.contains(id)) field.thresholds.push_back(kBeyondMeasured);
     add(std::move(field), inputs, plan, lowered.macros);
@@ -234,6 +250,7 @@ void takeFields(const LoweredCycle& lowered, const CycleFolder& folder, const Lo
 }
 
 void takeDeclaredFields(const CycleFolder& folder, const LoweringInputs& inputs, VerifyPlan& plan) {
+  takePictures(inputs, plan);
   const std::map<std::string, std::vector<double>> offered = offeredIn(folder);
   for (const gibbs::Field& declared : gibbs::declaredFields(*folder.cycle)) {
     verify::DrawField field;

@@ -1,6 +1,7 @@
 #include "targets/MissedTouches.h"
 
 #include "support/Decimal.h"
+#include "verify/SameWay.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,19 +16,6 @@ namespace {
 
 constexpr std::size_t kMost = 12; // touches; of a loop, the first
 
-// The same blocks, as far as they show; not where they lead to.
-bool sameWay(const verify::Record& a, const verify::Record& b) {
-  const auto sameDeed = [](const verify::Deed& one, const verify::Deed& other) {
-    return one.kind == other.kind && one.text == other.text && one.range.begin == other.range.begin;
-  };
-  const auto sameNumber = [](const auto& one, const auto& other) { return one.first == other.first; };
-  return a.ending == b.ending && a.alarm == b.alarm && a.text == b.text &&
-         a.endedAt.begin == b.endedAt.begin && a.lastBlock.begin == b.lastBlock.begin &&
-         a.pieces.size() == b.pieces.size() && a.measures.size() == b.measures.size() &&
-         std::equal(a.deeds.begin(), a.deeds.end(), b.deeds.begin(), b.deeds.end(), sameDeed) &&
-         std::equal(a.stores.begin(), a.stores.end(), b.stores.begin(), b.stores.end(), sameNumber);
-}
-
 // Where one touch has to find its surface for the source to go another way than a step before.
 class Turns {
 public:
@@ -37,7 +25,7 @@ public:
   // these.
   void find(long from, long to) {
     const std::optional<verify::Record>&one = at(from), &other = at(to);
-    if (!one || !other || sameWay(*one, *other)) return;
+    if (!one || !other || verify::sameWay(*one, *other)) return;
     if (to - from <= 1) {
       found_.insert(from);
       found_.insert(to);
@@ -84,12 +72,12 @@ public:
     constexpr long kFar = 1000; // of a limit that programs ask for
     long near = 1, far = kFar;
     const std::optional<verify::Record> one = sides_.source(at(near)), other = sides_.source(at(far));
-    if (!one || !other || sameWay(*one, *other)) return 0;
+    if (!one || !other || verify::sameWay(*one, *other)) return 0;
     while (far - near > 1) {
       const long middle = near + (far - near) / 2;
       const std::optional<verify::Record> now = sides_.source(at(middle));
       if (!now) return 0;
-      (sameWay(*now, *one) ? near : far) = middle;
+      (verify::sameWay(*now, *one) ? near : far) = middle;
     }
     return near;
   }

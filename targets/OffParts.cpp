@@ -2,10 +2,14 @@
 
 #include "support/Decimal.h"
 #include "verify/CompareParts.h"
+#include "verify/SameWay.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <iterator>
+#include <map>
+#include <optional>
 #include <set>
 #include <tuple>
 
@@ -72,6 +76,7 @@ double searchOf(const verify::Record& source, std::optional<double> most) {
 std::string textOf(const Off& off) {
   const auto& [grown, moved, turned] = off;
   if (grown != 0) return fmt::format("each surface {} mm farther along its touch", numberText(grown));
+  if (off == Off{}) return "each surface where it is expected";
   if (moved != 0) return fmt::format("all of it {} mm farther along X", numberText(moved));
   return fmt::format("it turned by {} degrees more", numberText(turned));
 }
@@ -83,11 +88,82 @@ bool counts(const verify::Record& source) {
           (source.alarmKind.empty() || !verify::ownTextOf(source.alarmKind).empty()));
 }
 
+// Runs of the source with its surfaces farther along their touches.
+class Grown {
+public:
+  Grown(SourceQuestions& questions, const verify::PartError& more) : questions_(questions), more_(more) {}
+
+  // In steps. nullopt: there is no such run.
+  const std::optional<verify::Record>& at(long steps) {
+    const auto [known, isNew] = runs_.try_emplace(steps);
+    if (isNew)
+      look(steps, [&, at = known](const verify::Record& record, sim::World&) { at->second = record; });
+    return known->second;
+  }
+  void look(long steps, const std::function<void(const verify::Record&, sim::World&)>& shown) {
+    questions_.elsewhere(more_, millimetres(steps), shown);
+  }
+  bool sameWayAt(long one, long other) {
+    return at(one) && at(other) && verify::sameWay(*at(one), *at(other));
+  }
+  // The last step of each way, as far as they show between these.
+  void turns(long from, long to, std::set<long>& out) {
+    if (!at(from) || !at(to) || verify::sameWay(*at(from), *at(to))) return;
+    if (to - from <= 1) {
+      out.insert(from);
+      return;
+    }
+    const long middle = from + (to - from) / 2;
+    turns(from, middle, out);
+    turns(middle, to, out);
+  }
+  static double millimetres(long steps) { return static_cast<double>(steps) / kSteps; }
+
+private:
+  static constexpr double kSteps = 2000; // each half of what a control counts: a size counts it twice
+
+  SourceQuestions& questions_;
+  const verify::PartError more_;
+  std::map<long, std::optional<verify::Record>> runs_;
+};
+
+using Compare =
+    std::function<std::vector<verify::Difference>(const verify::Record& source, sim::World& world)>;
+
+// Just where the source goes another way because of what it has measured.
+std::vector<verify::Difference> compareTurns(const TargetCase& now, bool exact, const Compare& compare) {
+  constexpr long kPlaces[] = {-4000, -600, 0, 600, 4000};
+  constexpr long kApart = 6; // steps: the last digits of two controls lie between
+  constexpr std::size_t kMostTurns = 8;
+  verify::PartError more;
+  if (exact) { // what the part is off by is on no step
+    more.shift = now.drawn.error.shift * -1;
+    more.turn = -now.drawn.error.turn;
+  }
+  Grown grown(*now.questions, more);
+  std::set<long> turns;
+  for (std::size_t i = 0; i + 1 < std::size(kPlaces); ++i)
+    grown.turns(kPlaces[i], kPlaces[i + 1], turns);
+  std::vector<verify::Difference> found;
+  for (const long turn : turns) {
+    if (turns.size() > kMostTurns) break; // it goes another way with each step
+    for (const long place : {exact ? turn : turn - kApart, exact ? turn + 1 : turn + 1 + kApart}) {
+      if (!found.empty() || !grown.sameWayAt(place, place > turn ? turn + 1 : turn)) continue;
+      grown.look(place, [&](const verify::Record& meant, sim::World& world) {
+        if (counts(meant)) found = compare(meant, world);
+      });
+      for (verify::Difference& one : found)
+        one.text =
+            fmt::format("with the part off, {}: {}", textOf({Grown::millimetres(place), 0, 0}), one.text);
+    }
+  }
+  return found;
+}
+
 } // namespace
 
-std::vector<verify::Difference>
-compareOffParts(const TargetCase& now, const std::function<verify::Record(sim::World&)>& run,
-                const std::function<verify::CompareRules(const verify::Record&)>& rules) {
+std::vector<verify::Difference> compareOffParts(const TargetCase& now, const OffRules& rules,
+                                                const Compare& compare) {
   std::vector<verify::Difference> found;
   if (now.source == nullptr || now.questions == nullptr || now.posted == nullptr) return found;
   const auto& body = now.posted->body;
@@ -95,7 +171,7 @@ compareOffParts(const TargetCase& now, const std::function<verify::Record(sim::W
     return std::holds_alternative<ir::Branch>(one.node);
   });
   std::set<Off> offs = offsOf(*now.source, compares);
-  const double search = searchOf(*now.source, rules(*now.source).overtravel);
+  const double search = searchOf(*now.source, rules.search);
   if (search > 0) offs.insert({std::round(search * 1000) / 1000, 0, 0});
   for (const Off& off : offs) {
     verify::PartError more;
@@ -104,12 +180,15 @@ compareOffParts(const TargetCase& now, const std::function<verify::Record(sim::W
     now.questions->elsewhere(more, std::get<0>(off), [&](const verify::Record& meant, sim::World& world) {
       if (!counts(meant)) return;
       if (std::get<0>(off) > kMost && meant.ending != verify::Ending::Finished) return;
-      found = verify::compare(meant, run(world), rules(meant));
+      found = compare(meant, world);
     });
     for (verify::Difference& one : found)
       one.text = fmt::format("with the part off, {}: {}", textOf(off), one.text);
     if (!found.empty()) return found;
   }
+  if (!compares) return found;
+  found = compareTurns(now, false, compare);
+  if (found.empty() && rules.exact) found = compareTurns(now, true, compare);
   return found;
 }
 

@@ -6,14 +6,25 @@
 #include "verify/Compare.h"
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace dotek::targets {
 
-// `run`: of the translation, in that world. `rules`: for a run of the source. The first part on which both do
-// not do the same, with what is particular about it in each text; empty: there is none.
-std::vector<verify::Difference>
-compareOffParts(const TargetCase& now, const std::function<verify::Record(sim::World&)>& run,
-                const std::function<verify::CompareRules(const verify::Record&)>& rules);
+struct OffRules {
+  // mm: farther beyond where a surface is expected no translation has to search; nothing: as far as the
+  // source.
+  std::optional<double> search;
+  // Both sides count in eight digits and measure by the same macros, so that they compare what is measured
+  // alike: the part is also such that a comparison is met exactly.
+  bool exact = false;
+};
+
+// `compare`: the translation, run in that world, with a run of the source there. The first part on which both
+// do not do the same, with what is particular about it in each text; empty: there is none.
+std::vector<verify::Difference> compareOffParts(
+    const TargetCase& now, const OffRules& rules,
+    const std::function<std::vector<verify::Difference>(const verify::Record& source, sim::World& world)>&
+        compare);
 
 } // namespace dotek::targets

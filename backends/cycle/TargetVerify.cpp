@@ -5,6 +5,7 @@
 #include "backends/cycle/TargetText.h"
 #include "support/messages/Verify.h"
 #include "targets/KeptResults.h"
+#include "targets/OffParts.h"
 #include "targets/ReadBack.h"
 #include "targets/Stage.h"
 #include "verify/CycleStand.h"
@@ -76,8 +77,10 @@ public:
     }
     if (now.rejected)
       compareRejection(record, now, out);
-    else if (now.source != nullptr)
+    else if (now.source != nullptr) {
       compareRecords(record, now, out);
+      if (out.differences.empty()) compareOff(inputs, now, out);
+    }
     if (now.questions != nullptr && !now.rejected)
       for (const auto& [text, line] : ofParameters_)
         out.differsAt(verify::Aspect::Variable, text, line);
@@ -183,6 +186,25 @@ private:
                     line);
     else
       out.refused = true;
+  }
+
+  // How far another search goes is its own business.
+  void compareOff(const sim::CycleInputs& inputs, const TargetCase& now, TargetRun& out) {
+    std::vector<TargetDifference> lines; // of the differences
+    const auto compare = [&](const verify::Record& meant, sim::World& world) {
+      TargetRun ran;
+      TargetCase there{.drawn = now.drawn, .entry = now.entry, .stores = now.stores, .world = world};
+      there.source = &meant;
+      compareRecords(stand_.run(cycle_, inputs, world, now.entry, now.stores), there, ran);
+      std::vector<verify::Difference> found;
+      for (const TargetDifference& one : ran.differences)
+        found.push_back(one.difference);
+      lines = std::move(ran.differences);
+      return found;
+    };
+    std::vector<verify::Difference> found = compareOffParts(now, {0, false}, compare);
+    for (std::size_t i = 0; i < found.size(); ++i)
+      out.differences.push_back({std::move(found[i]), lines[i].line, ""});
   }
 
   void compareRecords(const verify::Record& record, const TargetCase& now, TargetRun& out) const {

@@ -75,6 +75,7 @@ bool FanucVerification::prepare() {
       (set_ != nullptr && !text_.readMacros(*set_, control_, session)))
     return false;
   text_.compile(control_);
+  stand_.watchOnly(text_.safeMoves());
   stored_ = text_.storesOfTranslation();
   std::set<std::uint32_t> numbers;
   for (const auto& [number, line] : stored_)

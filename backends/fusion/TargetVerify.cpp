@@ -6,6 +6,7 @@
 #include "backends/fusion/TargetWritten.h"
 #include "ir/Program.h"
 #include "sim/machine/Compile.h"
+#include "sim/machine/SafeMoves.h"
 #include "sim/machine/VendorMacros.h"
 #include "support/Decimal.h"
 #include "support/messages/Verify.h"
@@ -191,6 +192,7 @@ private:
     FileId id = 0;
     std::unique_ptr<ir::ProgramFile> file;
     sim::Bytecode code;
+    sim::BlockSet watching = {}; // bare skip moves that go to a position
   };
   std::optional<Compiled> compiled(const std::string& numbered, TargetRun& out) {
     const std::string text = writtenOf(numbered).text;
@@ -210,6 +212,7 @@ private:
       for (const ir::Program& program : macros_->programs)
         programs.push_back(&program);
     made.code = sim::compile(programs, control_, sources_);
+    made.watching = sim::safeMoves(programs, control_);
     return made;
   }
 
@@ -263,14 +266,16 @@ private:
             },
             control_.arithmetic == stdlib::Arithmetic::Decimal8),
         made->id, out);
-    add(compareOffParts(
-            now, [&](sim::World& world) { return runIn(world, *made, now); },
-            [&](const verify::Record&) { return rulesFor(now); }),
+    const bool exact = control_.arithmetic == stdlib::Arithmetic::Decimal8 && sourceSet_ == set_;
+    add(compareOffParts(now, {rules.overtravel, exact},
+                        [&](const verify::Record& meant, sim::World& world) {
+                          return verify::compare(meant, runIn(world, *made, now), rules);
+                        }),
         made->id, out);
     runShifted(*made, now, record, out);
   }
 
-  verify::Record runIn(sim::World& world, const Compiled& made, const TargetCase& now) const {
+  verify::Record runIn(sim::World& world, const Compiled& made, const TargetCase& now) {
     const TargetCase there{.drawn = now.drawn, .entry = now.entry, .stores = now.stores, .world = world};
     return runCode(made, there, now.entry);
   }
@@ -302,13 +307,14 @@ private:
 
   verify::Record runCode(const Compiled& made, const TargetCase& now, const verify::Entry& entry,
                          verify::Stand::Way way = verify::Stand::Way::Run,
-                         const verify::Interference& interference = {}) const {
+                         const verify::Interference& interference = {}) {
     std::optional<sim::VendorMacros> meaning;
     if (set_ != nullptr) {
       meaning.emplace(*set_, control_);
       meaning->setStylusRadius(now.drawn.hosts.at("tool_radius"));
       if (sourceSet_ == set_) meaning->passUnstated();
     }
+    stand_.watchOnly(made.watching);
     verify::Record record =
         stand_.run(made.code, now.world, entry, now.stores, meaning ? &*meaning : nullptr, way, interference);
     // What macros do inside is their own business.
