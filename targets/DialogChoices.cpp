@@ -2,6 +2,8 @@
 
 #include "frontend/gibbs/Ast.h"
 #include "ir/Fold.h"
+#include "project/CycleCatalogue.h"
+#include "project/CycleFiles.h"
 
 #include <algorithm>
 #include <cmath>
@@ -51,9 +53,8 @@ void demand(ir::Cycle& cycle, ir::VariableId id, const ir::ConditionPtr& offered
 
 } // namespace
 
-std::map<std::string, std::vector<DialogChoice>> dialogChoices(const project::CycleFolder& folder,
-                                                               const SourceMap& sources) {
-  std::map<std::string, std::vector<DialogChoice>> out;
+ChoiceLists dialogChoices(const project::CycleFolder& folder, const SourceMap& sources) {
+  ChoiceLists out;
   if (folder.cycle == nullptr || !folder.cycle->dialog) return out;
   const Encoding encoding = sources.file(folder.cycle->dialog->file).encoding();
   std::vector<std::string> lists; // in the order of creation, which is their number
@@ -84,6 +85,18 @@ dialogChoices(const project::CycleFolder& folder, const ir::Cycle& cycle, const 
                           : offered.end();
     if (list != offered.end()) out.emplace(id, list->second);
   }
+  return out;
+}
+
+ChoiceLists listsOfCycle(const std::string& file, const project::CommonOptions& options) {
+  ChoiceLists out;
+  project::Session session(options);
+  project::CycleFiles files(session);
+  const auto* const tree = files.linked(file);
+  if (tree == nullptr) return out;
+  for (const auto& row : project::cyclePage(*tree).parameters)
+    if (std::vector<DialogChoice> choices = choicesOfType(row.kind); !choices.empty())
+      out.emplace(gibbs::foldCase(row.name), std::move(choices));
   return out;
 }
 

@@ -3,6 +3,7 @@
 
 #include "ir/Cycle.h"
 #include "project/CycleFolder.h"
+#include "project/Options.h"
 #include "support/Source.h"
 
 #include "verify/Draw.h"
@@ -20,10 +21,13 @@ struct DialogChoice {
   std::string title; // UTF-8
 };
 
-// Of each field that the dialog of `folder` offers as a list, or as a check box (0 and 1), by its folded
-// name.
-std::map<std::string, std::vector<DialogChoice>> dialogChoices(const project::CycleFolder& folder,
-                                                               const SourceMap& sources);
+// By name of the field or parameter, in one case.
+using ChoiceLists = std::map<std::string, std::vector<DialogChoice>>;
+
+// Of each field that the dialog of `folder` offers as a list, or as a check box (0 and 1).
+ChoiceLists dialogChoices(const project::CycleFolder& folder, const SourceMap& sources);
+// Of the parameters of a cycle file; what it says has been said.
+ChoiceLists listsOfCycle(const std::string& file, const project::CommonOptions& options);
 // Of each parameter of `cycle` that the dialog of `folder` offers as a list, or as a check box (0 and 1), in
 // its order. Other parameters are absent.
 std::map<ir::VariableId, std::vector<DialogChoice>>
@@ -39,8 +43,8 @@ bool takesNoOther(ir::Kind kind, const std::vector<double>& offered);
 // Values that the list of the field does not offer: above it, below it, and between two that it offers. None:
 // it takes others.
 std::vector<double> besideList(const verify::DrawField& field);
-// The first value of the case that the list of its field does not offer, as the alarm says it; "": there is
-// none.
+// The first value of the case that the list of its field does not offer, as the alarm
+// says it; "": there is none.
 std::string whyNotOffered(const std::vector<verify::DrawField>& fields, const verify::Case& drawn);
 // The checks of the cycle reject what a list does not offer, as its dialog does; that of a work offset which
 // offers all six systems is left to what is asked of each. The body has to read the parameter.

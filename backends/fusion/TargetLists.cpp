@@ -2,8 +2,6 @@
 
 #include "backends/fusion/Emit.h"
 #include "frontend/gibbs/Ast.h"
-#include "project/CycleCatalogue.h"
-#include "project/CycleFiles.h"
 #include "support/Decimal.h"
 
 #include <algorithm>
@@ -13,18 +11,6 @@
 namespace dotek::targets {
 
 namespace fusion = backends::fusion;
-
-ChoiceLists listsOfCycle(const std::string& file, const project::CommonOptions& options) {
-  ChoiceLists out;
-  project::Session session(options);
-  project::CycleFiles files(session);
-  const auto* const tree = files.linked(file);
-  if (tree == nullptr) return out;
-  for (const auto& row : project::cyclePage(*tree).parameters)
-    if (std::vector<DialogChoice> choices = choicesOfType(row.kind); !choices.empty())
-      out.emplace(frontend::gibbs::foldCase(row.name), std::move(choices));
-  return out;
-}
 
 void compareLists(const std::map<std::string, std::vector<DialogChoice>>& lists,
                   const fusion::RunResult& result, const std::string& prefix, TargetRun& out) {

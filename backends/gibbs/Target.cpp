@@ -68,7 +68,7 @@ public:
   }
 
   // Of the last cycle: the fields that the dialog asks for, by the source's name.
-  const std::map<std::string, std::string>& fields() const { return fields_; }
+  const std::map<std::string, gibbs::Field>& fields() const { return fields_; }
 
 private:
   void write(const CycleFolder& folder, LoweredCycle& lowered, const stdlib::MacroSet& macros,
@@ -77,7 +77,7 @@ private:
     const LoweringInputs& inputs = *context_.inputs;
     ir::Cycle& cycle = lowered.cycle;
     gibbs::Names names(cycle, diagnostics);
-    gibbs::Folder out = folderOf(folder, lowered, without, names, file, session_);
+    gibbs::Folder out = folderOf(folder, lowered, without, names, file, &macros == lowered.macros, session_);
     out.name = options_.source.cycle ? *options_.source.cycle
                : file != nullptr     ? fileStem(cycle.name)
                                      : folder.name;
@@ -120,7 +120,7 @@ private:
       return;
     }
     for (const gibbs::Field& field : out.fields)
-      if (field.asked) fields_[cycle.variable(field.variable).name] = field.name;
+      if (field.asked) fields_[cycle.variable(field.variable).name] = field;
     ConversionResult& result = context_.result;
     result.macros = macros.name;
     result.add(out.name + "/DefineData.txt", text->define);
@@ -177,7 +177,7 @@ private:
     return out;
   }
 
-  std::map<std::string, std::string> fields_;
+  std::map<std::string, gibbs::Field> fields_;
 };
 
 constexpr TargetFlag kFlags[] = {TargetFlag::ProbeMacros, TargetFlag::Result};

@@ -8,6 +8,7 @@
 #include "project/CycleCatalogue.h"
 #include "project/CycleFiles.h"
 #include "stdlib/HostInputs.h"
+#include "support/Decimal.h"
 #include "support/messages/CamFolder.h"
 #include "targets/DialogChoices.h"
 
@@ -77,8 +78,9 @@ double firstSystem(const ir::Cycle& cycle, ir::VariableId id) {
   return counted ? 1 : kFirstSystem;
 }
 
-// What the control would refuse with an alarm is refused in the dialog. A list offers nothing else.
-void confineSystem(ir::Cycle& cycle, const gibbs::Field& field) {
+// What the control would refuse with an alarm is refused in the dialog. A list offers nothing else. `others`:
+// the branch calls the macros of the source, which take what its list offers besides (G54.1 Pn).
+void confineSystem(ir::Cycle& cycle, const gibbs::Field& field, bool others) {
   constexpr double kBeside[] = {-55, -54, -53, -1, -0.5, 0.5, 5.5, 6, 100}; // from the first one
   const ir::VariableId id = field.variable;
   const double first = firstSystem(cycle, id), last = first + kLastSystem - kFirstSystem;
@@ -91,14 +93,25 @@ void confineSystem(ir::Cycle& cycle, const gibbs::Field& field) {
     return;
   const ir::Variable& variable = cycle.variable(id);
   const ir::ExpressionPtr value = ir::variable(id);
+  ir::ConditionPtr offered; // besides; nullptr: nothing is
+  std::string names;
+  for (const gibbs::Choice& one : field.choices) {
+    if (!others || isSystem(one)) continue;
+    const ir::ConditionPtr is = ir::compare(ir::Relation::Equal, value, ir::constant(one.value));
+    offered = offered == nullptr ? is : ir::join(ir::Connective::Or, offered, is);
+    names += fmt::format(" or {}", numberText(one.value));
+  }
+  const auto demand = [&](const ir::ConditionPtr& fine, const std::string& message, SourceRange range) {
+    addCheck(cycle, offered == nullptr ? fine : ir::join(ir::Connective::Or, fine, offered), message + names,
+             range);
+  };
   const std::string message =
       first == 1 ? fmt::format("The work offset {} is 1, 2, 3, 4, 5 or 6", variable.name)
                  : fmt::format("The work offset {} is 54, 55, 56, 57, 58 or 59", variable.name);
   const SourceRange range = variable.range;
-  addCheck(cycle, ir::compare(ir::Relation::GreaterEqual, value, ir::constant(first)), message, range);
-  addCheck(cycle, ir::compare(ir::Relation::LessEqual, value, ir::constant(last)), message, range);
-  addCheck(cycle, ir::compare(ir::Relation::Equal, ir::unary(ir::UnaryOp::Truncate, value), value), message,
-           range);
+  demand(ir::compare(ir::Relation::GreaterEqual, value, ir::constant(first)), message, range);
+  demand(ir::compare(ir::Relation::LessEqual, value, ir::constant(last)), message, range);
+  demand(ir::compare(ir::Relation::Equal, ir::unary(ir::UnaryOp::Truncate, value), value), message, range);
 }
 
 ir::ConditionPtr alwaysGiven(const ir::ConditionPtr& condition, const ir::Cycle& cycle) {
@@ -246,7 +259,7 @@ void fixUnused(LoweredCycle& lowered, bool keepChecked, const ir::FoldOptions& f
 
 gibbs::Folder folderOf(const CycleFolder& folder, LoweredCycle& lowered,
                        const std::set<ir::VariableId>& without, gibbs::Names& names, const std::string* file,
-                       Session& session) {
+                       bool sameMacros, Session& session) {
   ir::Cycle& cycle = lowered.cycle;
   Diagnostics& diagnostics = session.diagnostics();
   gibbs::Folder out;
@@ -289,7 +302,7 @@ gibbs::Folder folderOf(const CycleFolder& folder, LoweredCycle& lowered,
   for (const gibbs::Field& field : out.fields)
     if (field.asked && cycle.variable(field.variable).kind == ir::Kind::WorkOffset &&
         readsIn(cycle.body, field.variable))
-      confineSystem(cycle, field);
+      confineSystem(cycle, field, sameMacros);
   return out;
 }
 

@@ -30,10 +30,11 @@ void fixUnused(LoweredCycle& lowered, bool keepChecked, const ir::FoldOptions& f
                Diagnostics& diagnostics);
 
 // Fields with their first values, and checks of those that hold a work offset. `file`: of the cycle language;
-// nullptr: the cycle is a folder. What has no first value is reported.
+// nullptr: the cycle is a folder. `sameMacros`: the branch calls those of the source. What has no first value
+// is reported.
 backends::gibbs::Folder folderOf(const CycleFolder& folder, LoweredCycle& lowered,
                                  const std::set<ir::VariableId>& without, backends::gibbs::Names& names,
-                                 const std::string* file, Session& session);
+                                 const std::string* file, bool sameMacros, Session& session);
 
 // Reports host inputs that neither a field nor the post has.
 void checkHosts(const ir::Cycle& cycle, Diagnostics& diagnostics);

@@ -3,6 +3,7 @@
 #include "backends/gibbs/TargetVerify.h"
 
 #include "backends/gibbs/Emit.h"
+#include "backends/gibbs/TargetDialog.h"
 #include "frontend/gibbs/Ast.h"
 #include "frontend/gibbs/Cycle.h"
 #include "support/Decimal.h"
@@ -10,6 +11,7 @@
 #include "support/messages/Verify.h"
 #include "targets/CycleCases.h"
 #include "targets/DialogChoices.h"
+#include "targets/OffParts.h"
 #include "targets/ReadBack.h"
 #include "targets/Stage.h"
 #include "targets/Target.h"
@@ -91,7 +93,13 @@ public:
     options_.control = from_.inputs.control->name;
     plan_.sourceMacros = plan_.targetMacros = from_.plan.targetMacros;
     runner_ = std::make_unique<CaseRunner>(options_, plan_);
-    if (runner_->load() && runner_->prepare()) return true;
+    if (runner_->load() && runner_->prepare()) {
+      const ChoiceLists lists = from_.plan.cycleFile
+                                    ? listsOfCycle(from_.options.inputs.front(), from_.options.common)
+                                    : dialogChoices(from_.folder, session.sources());
+      ofDialog_ = dialogDifferences(runner_->folder(), runner_->session().sources(), fields_, lists);
+      return true;
+    }
     session.diagnostics().report<diag::TranslationNotRead>({}, folder.string(),
                                                            firstError(runner_->session().diagnostics()));
     return false;
@@ -107,11 +115,12 @@ public:
     verify::Case values = now.drawn;
     values.values.clear();
     for (const auto& [name, value] : now.drawn.values)
-      if (const auto field = fields_.find(name); field != fields_.end()) values.values[field->second] = value;
+      if (const auto field = fields_.find(name); field != fields_.end())
+        values.values[field->second.name] = value;
     for (const auto& [name, field] : fields_)
       if (const auto host = now.drawn.hosts.find(name);
           host != now.drawn.hosts.end() && !now.drawn.values.contains(name))
-        values.values[field] = host->second;
+        values.values[field.name] = host->second;
     for (const char* host : {"retract", "clearance"})
       values.hosts.try_emplace(host, now.drawn.hosts.at("start_z"));
     const CaseRunner::Performed ran =
@@ -135,7 +144,10 @@ public:
       if (now.questions != nullptr && out.differences.empty() &&
           now.source->ending == verify::Ending::Finished) {
         comparePath(values, now, out);
+        if (out.differences.empty()) compareOff(values, now, out);
         compareFirstValues(out);
+        for (const std::string& text : ofDialog_)
+          out.differs(verify::Aspect::Variable, text);
       }
     }
     if (now.shown != nullptr && ran.record)
@@ -189,6 +201,29 @@ private:
           fmt::format("the source rejects the values, `{}`, and the dialog that is written takes them",
                       wanted),
           0);
+  }
+
+  // How far another set searches is its own business.
+  void compareOff(const verify::Case& values, const TargetCase& now, TargetRun& out) {
+    const bool same = sourceSet_ == set_ && !from_.plan.cycleFile;
+    std::vector<TargetDifference> lines; // of the differences
+    const auto compare = [&](const verify::Record& meant, sim::World& world) {
+      TargetRun off;
+      TargetCase there{.drawn = now.drawn, .entry = now.entry, .stores = now.stores, .world = world};
+      there.source = &meant;
+      const CaseRunner::Performed ran =
+          runner_->perform(values, world, now.entry, now.stores, verify::Stand::Way::Run);
+      if (ran.record) compareRecords(ran, there, off);
+      std::vector<verify::Difference> found;
+      for (const TargetDifference& one : off.differences)
+        found.push_back(one.difference);
+      lines = std::move(off.differences);
+      return found;
+    };
+    std::vector<verify::Difference> found =
+        compareOffParts(now, {same ? std::nullopt : std::optional(0.0), false}, compare);
+    for (std::size_t i = 0; i < found.size(); ++i)
+      out.differences.push_back({std::move(found[i]), lines[i].line, ""});
   }
 
   void compareRecords(const CaseRunner::Performed& ran, const TargetCase& now, TargetRun& out) const {
@@ -257,16 +292,16 @@ private:
           first = parseNumber(text);
       if (name == fields_.end() || !first || field.fixed) continue;
       const auto found = std::find_if(declared.begin(), declared.end(), [&](const auto& one) {
-        return frontend::gibbs::foldCase(one.name.text) == frontend::gibbs::foldCase(name->second);
+        return frontend::gibbs::foldCase(one.name.text) == frontend::gibbs::foldCase(name->second.name);
       });
       if (found != declared.end() && found->value && std::abs(*found->value - *first) <= kSameValue) continue;
       const bool stated = found != declared.end() && found->value;
       out.differs(
           verify::Aspect::Variable,
-          fmt::format("DefineData.txt{} gives {} the first value {} against {}, that of the source",
-                      stated ? fmt::format(", line {}", runner_->session().sources().line(found->name.range))
-                             : "",
-                      name->second, stated ? numberText(*found->value) : "of no number", numberText(*first)));
+          fmt::format(
+              "DefineData.txt{} gives {} the first value {} against {}, that of the source",
+              stated ? fmt::format(", line {}", runner_->session().sources().line(found->name.range)) : "",
+              name->second.name, stated ? numberText(*found->value) : "of no number", numberText(*first)));
     }
   }
 
@@ -275,7 +310,8 @@ private:
   TemporaryFolder scratch_;
   VerifyOptions options_; // of the written folder
   VerifyPlan plan_;
-  std::map<std::string, std::string> fields_; // of the written folder, by the source's name
+  std::map<std::string, backends::gibbs::Field> fields_; // of the written folder, by the source's name
+  std::vector<std::string> ofDialog_;                    // differences
   std::unique_ptr<CaseRunner> runner_;
 };
 

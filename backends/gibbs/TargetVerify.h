@@ -1,6 +1,7 @@
 // Private to Target*.cpp.
 #pragma once
 
+#include "backends/gibbs/Emit.h"
 #include "support/OutputFile.h"
 #include "targets/Verification.h"
 
@@ -14,9 +15,10 @@ namespace dotek::targets {
 
 // What convert writes of one cycle.
 struct WrittenFolder {
-  std::string name;                          // of the cycle in the CAM
-  std::vector<OutputFile> files;             // NAME/DefineData.txt, .., the branch of the Prog last
-  std::map<std::string, std::string> fields; // that the dialog asks for, by the source's name
+  std::string name;              // of the cycle in the CAM
+  std::vector<OutputFile> files; // NAME/DefineData.txt, .., the branch of the Prog last
+  // That the dialog asks for, by the source's name.
+  std::map<std::string, backends::gibbs::Field> fields;
 };
 // nullopt: reported.
 std::optional<WrittenFolder> writtenFolder(const VerificationSource& source);

@@ -130,6 +130,44 @@ TEST_CASE("verify to gibbs: a dialog or a branch that was damaged differs") {
           "gives diameter the first value 41 against 40, that of the source");
 }
 
+TEST_CASE("verify to gibbs: a dialog that asks for something else differs") {
+  const ProcessFolder folder;
+  const std::string shop = (root() / "tests/shops/inspection").string();
+  const std::string source = shop + "/JT.Slot.Datum --prog " + shop + "/post.txt --data " +
+                             (root() / "tests/shops/data").string() + " --to gibbs --host clearance=50 ";
+  const ShellResult made = folder.run("dotek convert " + source + "-d out");
+  REQUIRE_MESSAGE(made.status == 0, made.err);
+  const std::string dialog = folder.read("out/JT.Slot.Datum/CycleData.dlg");
+  const auto verdict = [&](std::string_view from, std::string_view to) {
+    const std::string damaged = replaced(dialog, from, to);
+    REQUIRE_MESSAGE(!damaged.empty(), dialog);
+    folder.write("out/JT.Slot.Datum/CycleData.dlg", damaged);
+    const ShellResult result = folder.run("dotek verify " + source +
+                                          "--jobs 1 --cases 8 --translation "
+                                          "out/JT.Slot.Datum/branch.txt");
+    return result.out + result.err;
+  };
+  const auto differs = [&](std::string_view from, std::string_view to, std::string_view says) {
+    const std::string found = verdict(from, to);
+    CHECK_MESSAGE(found.starts_with("DIFFERS"), found);
+    CHECK_MESSAGE(found.find(says) != std::string::npos, found);
+  };
+  const std::string sound = verdict("dialog ", "dialog ");
+  CHECK_MESSAGE(sound.starts_with("AGREES"), sound);
+  // In other words a text may say the same.
+  const std::string reworded = verdict("nominal width", "width as in the drawing");
+  CHECK_MESSAGE(reworded.starts_with("AGREES"), reworded);
+  differs("\"G55\", 2", "\"G55\", 9", "the list of `WCS` does not offer 2, `G55` of the source");
+  differs("\"G56\", 3", "\"G58\", 3", "the list of `WCS` calls 3 `G58` against `G56`");
+  differs("dropdown_val 1,", "dropdown_add 1, \"G54.1 P9\", 109\ndropdown_val 1,",
+          "the list of `WCS` offers 109");
+  differs(", ZONE, ZONE", ", WIDE, WIDE", "no row asks for `ZONE`");
+  differs(", ZM, ZM", ", ZM, FLOOR", "the input of `ZM` begins with the value of `FLOOR`");
+  differs("\"ZM [mm]\"", "\"FLOOR [mm]\"", "the name beside `ZM` is that of `FLOOR`");
+  differs("\"ZM [mm]\"", "\"ZM [inch]\"", "`ZM` is in inch, and counts mm");
+  differs("Width, nominal width", "height of the touches", "the text beside `WIDE` is that of `ZM`");
+}
+
 TEST_CASE("verify to gibbs: the temporary folder is gone at the end, and on a signal") {
   const ProcessFolder folder;
   const std::string verify =
