@@ -183,6 +183,7 @@ void ControlReader::alarm() {
   origin(table);
   control_.alarmFirst = whole(table, "first", "the least number", 0, 9999);
   control_.alarmLast = whole(table, "last", "the greatest number", 0, 9999);
+  control_.alarmShown = static_cast<std::uint32_t>(table.value("shown_from").integer(3000, 0, 99'999));
   control_.alarmLength = whole(table, "length", "characters of a message", 1, 999);
   if (control_.alarmFirst > control_.alarmLast)
     document_.fail(table.range(),

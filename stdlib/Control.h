@@ -265,6 +265,7 @@ struct Control {
   // SIN, ATAN, AND, ...; beside ATAN the forms that exist: "ATAN[y]" (-90 to 90), "ATAN[y]/[x]", "ATAN[y,x]".
   std::set<std::string> functions;
   std::uint32_t alarmFirst = 0, alarmLast = 200; // n of #3000=n
+  std::uint32_t alarmShown = 3000;               // what the control shows is this number + n
   std::uint32_t alarmLength = 26;                // characters of a message
   std::uint32_t programLast = 9999;              // greatest O number
   bool colonNames = false;                       // a program may be headed :12

@@ -85,16 +85,16 @@ template <class Archive> void fields(Archive& archive, PmcWindow& it) {
 template <class Archive> void fields(Archive& archive, Control& it) {
   auto& [name, title, origin, decimal, decimalGrade, arithmetic, lengths, increment, decimals, integerDigits,
          digits, ifThen, joinedConditions, thenGoto, bareFunctions, bracketDepth, locals, macroLevels, common,
-         readOnly, toolOffsets, functions, alarmFirst, alarmLast, alarmLength, programLast, colonNames,
-         programNames, sequenceLast, variables, withToolLength, arcTolerance, repeatLetter, rotation,
-         callDepth, repeatInProgram, callCodes, readAheadStops, state, window, printPadding, alarms, codes] =
-      it;
+         readOnly, toolOffsets, functions, alarmFirst, alarmLast, alarmShown, alarmLength, programLast,
+         colonNames, programNames, sequenceLast, variables, withToolLength, arcTolerance, repeatLetter,
+         rotation, callDepth, repeatInProgram, callCodes, readAheadStops, state, window, printPadding, alarms,
+         codes] = it;
   archive(name, title, origin, decimal, decimalGrade, arithmetic, lengths, increment, decimals, integerDigits,
           digits, ifThen, joinedConditions, thenGoto, bareFunctions, bracketDepth, locals, macroLevels,
-          common, readOnly, toolOffsets, functions, alarmFirst, alarmLast, alarmLength, programLast,
-          colonNames, programNames, sequenceLast, variables, withToolLength, arcTolerance, repeatLetter,
-          rotation, callDepth, repeatInProgram, callCodes, readAheadStops, state, window, printPadding,
-          alarms, codes);
+          common, readOnly, toolOffsets, functions, alarmFirst, alarmLast, alarmShown, alarmLength,
+          programLast, colonNames, programNames, sequenceLast, variables, withToolLength, arcTolerance,
+          repeatLetter, rotation, callDepth, repeatInProgram, callCodes, readAheadStops, state, window,
+          printPadding, alarms, codes);
 }
 
 namespace {

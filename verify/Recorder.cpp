@@ -475,6 +475,10 @@ Record Recorder::finish(const std::set<std::uint32_t>& stores) {
   record_.ofValue = end.ofValue;
   if (record_.ending != Ending::Finished) {
     record_.alarm = end.number;
+    // Two controls show the alarm of one macro by different numbers.
+    if (const std::uint32_t from = machine_.control().alarmShown;
+        end.number >= from && end.number - from <= 999)
+      record_.alarm = 3000 + end.number - from;
     record_.text = end.text;
     record_.endedAt = call_.depth > 0 ? call_.range : place();
     if (call_.depth > 0) {
@@ -547,8 +551,9 @@ std::string Recorder::alarmKindOf(const sim::RunEnd& end) const {
     for (const stdlib::MacroAlarm alarm : kAlarms) {
       const stdlib::MacroAlarmInfo* const info = set->find(alarm);
       const bool same = info == nullptr ? end.number == 0 && end.text == sim::macroAlarmText(alarm)
-                        : info->number  ? end.number == 3000 + *info->number && end.text == info->text
-                                        : end.number == 0 && end.text == info->text;
+                        : info->number  ? end.number == machine_.control().alarmShown + *info->number &&
+                                             end.text == info->text
+                                       : end.number == 0 && end.text == info->text;
       if (same) return std::string(stdlib::macroAlarmName(alarm));
     }
   }

@@ -372,7 +372,7 @@ bool Machine::raise(Alarm alarm, char letter) {
 
 bool Machine::raise(std::uint32_t n, std::string_view text) {
   stop(Ending::Alarm);
-  end_.number = 3000 + n;
+  end_.number = control_->alarmShown + n;
   end_.text = text;
   end_.letter = 0;
   end_.stack = stack_;

@@ -163,4 +163,7 @@ TEST_CASE("sim variables: #3000 raises 3000 + n with its message") {
   CHECK_FALSE(s.machine->raise(145, "NOT MEASURED"));
   CHECK(s.state() == "alarm 3145");
   CHECK(s.machine->end().text == "NOT MEASURED");
+  Simulation haas("haas-ngc");
+  CHECK_FALSE(haas.machine->raise(15, "NOT MEASURED"));
+  CHECK(haas.state() == "alarm 1015");
 }
