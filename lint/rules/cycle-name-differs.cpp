@@ -50,17 +50,20 @@ bool misspeltInList(const std::string& a, const std::string& b) {
   return most > 0 && nameDistance(one, other, most) <= most;
 }
 
-// Words of names that are close on purpose differ in one of these where they end: axes, sides, directions.
-bool tellsApart(char a, char b) {
-  constexpr std::string_view kFamilies[] = {"xyz", "uvw", "ijk", "abcd", "lr", "pm", "pn", "ie", "io", "hl"};
-  return std::any_of(std::begin(kFamilies), std::end(kFamilies), [&](std::string_view family) {
-    return family.find(a) != std::string_view::npos && family.find(b) != std::string_view::npos;
-  });
+// Words of names that are close on purpose differ in one of these where they end, or in one of the first few
+// where they begin: axes, sides, directions.
+bool tellsApart(char a, char b, bool begins) {
+  constexpr std::string_view kFamilies[] = {"xyz", "uvw", "lr", "ijk", "abcd", "pm", "pn", "ie", "io", "hl"};
+  constexpr std::size_t kBegin = 3;
+  return std::any_of(
+      std::begin(kFamilies), begins ? kFamilies + kBegin : std::end(kFamilies), [&](std::string_view family) {
+        return family.find(a) != std::string_view::npos && family.find(b) != std::string_view::npos;
+      });
 }
 
 // One letter in the place of another within a word: `OV-Costula` for `OV-Costola`. A digit, a word of one or
-// two letters, or the last letter of a word where it is a member of a family makes another name: `probe.x`
-// and `probe.y`, `FaceX` and `FaceY`, `bore1` and `bore2`.
+// two letters, or the last or first letter of a word where it is a member of a family makes another name:
+// `probe.x` and `probe.y`, `FaceX` and `FaceY`, `XWeb` and `YWeb`, `bore1` and `bore2`.
 bool otherLetter(const std::string& a, const std::string& b) {
   constexpr std::size_t kLeastWord = 3;
   if (a.size() != b.size()) return false;
@@ -83,7 +86,8 @@ bool otherLetter(const std::string& a, const std::string& b) {
     --begin;
   while (end < b.size() && joins(end - 1))
     ++end;
-  return end - begin >= kLeastWord && !(at + 1 == end && tellsApart(fold(a[at]), fold(b[at])));
+  const bool first = at == begin, last = at + 1 == end;
+  return end - begin >= kLeastWord && !((first || last) && tellsApart(fold(a[at]), fold(b[at]), !last));
 }
 
 void check(const Project& project, Report& report) {

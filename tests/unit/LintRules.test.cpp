@@ -177,6 +177,26 @@ TEST_CASE("lint rules: the document of each rule holds") {
   }
 }
 
+TEST_CASE("lint rules: a branch for another axis, whose folder is elsewhere, is no misprint") {
+  const auto isFound = [](const std::string& tested, const std::string& folder) {
+    Example example;
+    example.files = {
+        {"SchlitzX/DefineData.txt", "Z = -5\n"},
+        {folder + "/DefineData.txt", "Z = -5\n"},
+        {"post.txt",
+         "#1 = '####.##;0'\nFORMAT(OpFieldData#,1)\nprobe:\nIF CycleType?('SchlitzX') SeqC ' G65 P9770 "
+         "Z'OpFieldData#('Z')' F500' EOL END\nIF CycleType?('" +
+             tested + "') SeqC ' G65 P9770 Z'OpFieldData#('Z')' F600' EOL END\nRETURN\n"}};
+    std::string text;
+    return !findings(example, "cycle-name-differs", text).empty();
+  };
+  CHECK(!isFound("YNut", "XNut"));
+  CHECK(!isFound("RKante", "LKante"));
+  CHECK(!isFound("Nut.Y", "Nut.X"));
+  CHECK(isFound("Nut.Tiefa", "Nut.Tiefe"));
+  CHECK(isFound("Mut.Tiefe", "Nut.Tiefe"));
+}
+
 namespace {
 
 // A number on each block that has none and is no header: from 7001, past numbers that the text has.
