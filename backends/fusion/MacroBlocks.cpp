@@ -548,11 +548,10 @@ CallValues MacroBlocks::values(const ir::Origin& origin) {
   out.place = [this, &origin](const ir::Coordinate& coordinate, ir::Axis axis, ir::Frame frame) {
     return place(coordinate, axis, frame, origin, true);
   };
-  out.overtravel = [this] {
-    const auto fixed = state_.options.fixedByName.find("overtravel");
-    return fixed != state_.options.fixedByName.end() ? ir::constant(fixed->second)
-                                                     : ir::variable(state_.host("overtravel"));
-  };
+  // The operation has none: without `--host` the macro takes its own, as the source's does.
+  if (const auto given = state_.options.fixedByName.find("overtravel");
+      given != state_.options.fixedByName.end())
+    out.overtravel = [over = given->second] { return ir::constant(over); };
   if (state_.options.source != nullptr)
     out.beyond = [this](ir::Axis axis) { return overtravelOf(state_.options.source, axis); };
   return out;

@@ -28,7 +28,6 @@ constexpr HostText kHosts[] = {
     {"tool_offset", "tool.lengthOffset", "toolOffset"},
     {"clearance", "cycle.clearance", "clearance"},
     {"retract", "cycle.retract", "retract"},
-    {"overtravel", "cycle.probeOvertravel", "overtravel"},
 };
 
 const HostText* hostText(const std::string& name) {
@@ -296,10 +295,8 @@ void writeReading(State& state) {
       state.errorIf("!" + state.helper(Helper::IsNumber) + "(" + state.name(id) + ")", what + " is no number",
                     {});
     // A number that cannot be meant, as the command line refuses it.
-    const bool positive = variable.name == "tool_radius";
-    if (host != nullptr && (positive || variable.name == "overtravel"))
-      state.errorIf(state.name(id) + (positive ? " <= 0" : " < 0"),
-                    what + (positive ? " is not above 0" : " is negative"), {});
+    if (host != nullptr && variable.name == "tool_radius")
+      state.errorIf(state.name(id) + " <= 0", what + " is not above 0", {});
     if (isWhole(variable.kind))
       state.errorIf((absent ? state.name(id) + " !== undefined && " : "") + state.name(id) + " % 1 !== 0",
                     what + " is no whole number", {});

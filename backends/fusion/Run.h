@@ -23,7 +23,7 @@ struct RunInput {
   double toolDiameter = 6;
   double toolNumber = 1;
   double toolLengthOffset = 1;
-  std::map<std::string, double> cycle; // "clearance", "retract", "probeOvertravel"
+  std::map<std::string, double> cycle; // "clearance", "retract"
   bool chosen = true;                  // the operation names this cycle; else none
   bool probing = false;                // the operation's strategy is one of probing
   // What arrives as a text instead of a number: a property, a member of the cycle, "x", "y", "z" of the

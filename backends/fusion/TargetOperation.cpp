@@ -34,11 +34,10 @@ fusion::RunInput operationOf(const verify::Case& drawn, const std::string& prefi
   out.toolDiameter = inJob(2 * host("tool_radius", 3));
   out.toolNumber = host("tool_number", 1);
   out.toolLengthOffset = host("tool_offset", 1);
-  const std::pair<const char*, const char*> kCycle[] = {
-      {"clearance", "clearance"}, {"retract", "retract"}, {"overtravel", "probeOvertravel"}};
-  for (const auto& [name, member] : kCycle)
-    if (const auto found = drawn.hosts.find(name); found != drawn.hosts.end())
-      out.cycle[member] = inJob(found->second);
+  // Of its cycle a drilling operation has these planes, and nothing of a probing one.
+  for (const char* plane : {"clearance", "retract"})
+    if (const auto found = drawn.hosts.find(plane); found != drawn.hosts.end())
+      out.cycle[plane] = inJob(found->second);
   return out;
 }
 
@@ -171,7 +170,7 @@ bool OperationDemands::uses(const TargetCase& now, const std::string& name) {
   return uses_[name] = now.questions->moves(name) || now.questions->rejectsSome(name);
 }
 
-// Texts for numbers, halves of what chooses something, a ball without a radius, a negative overtravel.
+// Texts for numbers, halves of what chooses something, a ball without a radius.
 void OperationDemands::runWithoutSense(const TargetCase& now, TargetRun& out) {
   const auto& hosts = now.drawn.hosts;
   right_ = fragment_.run(operationOf(now.drawn, prefix_)).text;
@@ -205,15 +204,10 @@ void OperationDemands::runWithoutSense(const TargetCase& now, TargetRun& out) {
   struct Input {
     const char *host, *name;
   };
-  static constexpr Input kInputs[] = {{"start_x", "x"},
-                                      {"start_y", "y"},
-                                      {"start_z", "z"},
-                                      {"tool_radius", "diameter"},
-                                      {"tool_number", "number"},
-                                      {"tool_offset", "lengthOffset"},
-                                      {"clearance", "clearance"},
-                                      {"retract", "retract"},
-                                      {"overtravel", "probeOvertravel"}};
+  static constexpr Input kInputs[] = {{"start_x", "x"},           {"start_y", "y"},
+                                      {"start_z", "z"},           {"tool_radius", "diameter"},
+                                      {"tool_number", "number"},  {"tool_offset", "lengthOffset"},
+                                      {"clearance", "clearance"}, {"retract", "retract"}};
   for (const Input& one : kInputs) {
     if (from_.plan.fixedHosts.contains(one.host) || !hosts.contains(one.host)) continue;
     fusion::RunInput input = operationOf(now.drawn, prefix_);
@@ -262,19 +256,10 @@ void OperationDemands::runTooLarge(const TargetCase& now, TargetRun& out) {
 
 void OperationDemands::runWithoutBall(const TargetCase& now, TargetRun& out) {
   const auto& hosts = now.drawn.hosts;
-  if (hosts.contains("tool_radius") && !from_.plan.fixedHosts.contains("tool_radius")) {
-    fusion::RunInput input = operationOf(now.drawn, prefix_);
-    input.toolDiameter = 0;
-    demandError(now, "tool_radius", input, "a ball without a radius", out, " is not above 0");
-  }
-  if (!hosts.contains("overtravel") || from_.plan.fixedHosts.contains("overtravel")) return;
+  if (!hosts.contains("tool_radius") || from_.plan.fixedHosts.contains("tool_radius")) return;
   fusion::RunInput input = operationOf(now.drawn, prefix_);
-  input.cycle["probeOvertravel"] = -1;
-  demandError(now, "overtravel", input, "an overtravel of -1", out, " is negative");
-  input.cycle["probeOvertravel"] = 0;
-  const fusion::RunResult none = fragment_.run(input);
-  if (!none.ok() && now.questions->with("overtravel", 0).answer == SourceQuestions::Answer::Runs)
-    out.differs(verify::Aspect::Ending, "with an overtravel of 0 the source runs; " + didInstead(none));
+  input.toolDiameter = 0;
+  demandError(now, "tool_radius", input, "a ball without a radius", out, " is not above 0");
 }
 
 // As with the first value of DefineData; without one an error where the field moves something.

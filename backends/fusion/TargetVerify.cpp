@@ -324,8 +324,9 @@ private:
 
   verify::CompareRules rulesFor(const TargetCase& now) const {
     verify::CompareRules rules = programRules(from_, control_, sourceSet_, set_);
+    const bool given = from_.plan.fixedHosts.contains("overtravel");
     if (const auto host = now.drawn.hosts.find("overtravel");
-        sourceSet_ != set_ && host != now.drawn.hosts.end())
+        given && sourceSet_ != set_ && host != now.drawn.hosts.end())
       rules.overtravel = host->second;
     return rules;
   }

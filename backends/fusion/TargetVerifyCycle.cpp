@@ -221,9 +221,8 @@ private:
     out.toolNumber = host("tool_number", 1);
     out.toolLengthOffset = host("tool_offset", 1);
     out.cycle["clearance"] = inJob(host("clearance", host("start_z", 0) + kClearance));
-    for (const auto& [name, member] : {std::pair{"retract", "retract"}, {"overtravel", "probeOvertravel"}})
-      if (const auto found = drawn.hosts.find(name); found != drawn.hosts.end())
-        out.cycle[member] = inJob(found->second);
+    if (const auto found = drawn.hosts.find("retract"); found != drawn.hosts.end())
+      out.cycle["retract"] = inJob(found->second);
     return out;
   }
 

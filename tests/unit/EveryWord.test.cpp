@@ -62,11 +62,10 @@ struct Counts {
 };
 
 // Added by the back end: the source does not say it, or says it in another block.
-bool isAddition(const ResultLine& line, const NcWord& word, WordTarget target) {
+bool isAddition(const NcWord& word, WordTarget target) {
   if (target == WordTarget::Mikroprog && (word.letter == 'N' || word.letter == 'L' || word.letter == '('))
     return true;
-  if (word.letter == 'G' && (word.value == "90" || word.value == "0" || word.value == "1")) return true;
-  return word.letter == 'Q' && line.text.find(" Q{overtravel}") != std::string::npos;
+  return word.letter == 'G' && (word.value == "90" || word.value == "0" || word.value == "1");
 }
 bool isAddition(const ResultLine& line) {
   return line.text == "G53" || !line.reason.empty();
@@ -98,7 +97,7 @@ void dropEach(const WordCase& how, const std::vector<SourceBlock>& blocks,
       fewer = lines;
       fewer[i] = line.without(w);
       const bool lost = !checkWords(how, blocks, fewer, outcome).lost.empty();
-      CHECK((lost || isAddition(line, line.words[w], how.target)));
+      CHECK((lost || isAddition(line.words[w], how.target)));
       counts.wordsDropped += lost;
     }
   }

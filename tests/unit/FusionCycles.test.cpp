@@ -118,6 +118,18 @@ TEST_CASE("fusion cycles: blocks go above, over and down to the point, then call
   CHECK(runFragment(text, "face", input).errors == std::vector<std::string>{"face: system is no number"});
 }
 
+TEST_CASE("fusion cycles: a drilling operation knows no overtravel, so a cycle that reads one asks for it") {
+  const TestFolder folder("dotek-fusion-cycles");
+  std::string text(kFace);
+  text.replace(text.find("by wide"), 7, "by wide overtravel overtravel");
+  driver::ConvertOptions options = toFusion(folder.write("face.cycle", text));
+  const driver::Outcome refused = driver::convert(options);
+  CHECK(refused.status == 1);
+  CHECK_MESSAGE(said(refused).find("`--host overtravel=VALUE`") != std::string::npos, said(refused));
+  options.common.host.emplace_back("overtravel", "4");
+  CHECK(runFragment(fragmentOf(options), "face", faceInput()).ok());
+}
+
 TEST_CASE("fusion cycles: a whole post writes the program after the end") {
   const TestFolder folder("dotek-fusion-cycles");
   driver::ConvertOptions options = toFusion(folder.write("face.cycle", std::string(kFace)));

@@ -302,7 +302,7 @@ TEST_CASE("numbers that a job keeps in 32 bits print, compare and warn as those 
     CAPTURE(travel);
     fusion::RunInput typed;
     typed.toolDiameter = 6.36; // the check asks for more than the radius: 3.18
-    typed.cycle = {{"clearance", 5.08}, {"probeOvertravel", 4.57}};
+    typed.cycle = {{"clearance", 5.08}};
     typed.points = {{-15.24, 1000.01, 60.96}};
     typed.properties = {{"surfaceX_X", travel},
                         {"surfaceX_I", travel - 15.24},

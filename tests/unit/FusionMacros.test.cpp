@@ -65,7 +65,21 @@ TEST_CASE("a fragment with our own macros says what they need and calls them") {
   CHECK(fragment.find("dotek new macros dotek") != std::string::npos);
   fusion::RunInput input;
   input.toolDiameter = 6;
-  input.cycle = {{"clearance", 15}, {"probeOvertravel", 8}};
+  input.cycle = {{"clearance", 15}};
+  input.properties = {{"surfaceX_X", 12}, {"surfaceX_I", 12}, {"surfaceX_G", 55}, {"surfaceX_Z", -5}};
+  const fusion::RunResult run = runFragment(fragment, "surfaceX", input);
+  CHECK_MESSAGE(run.ok(), reportOf(run));
+  CHECK(holds(run.text, "G65 P8811 X12. S2."));
+}
+
+TEST_CASE("a fragment asks a drilling operation for no overtravel; --host gives the calls one") {
+  const DataFolder folder;
+  driver::ConvertOptions convert = ownMacrosFor(folder, "fanuc-0i-md");
+  CHECK(fragmentOf(convert).find("vertravel") == std::string::npos);
+  convert.common.host = {{"overtravel", "8"}};
+  const std::string fragment = fragmentOf(convert);
+  CHECK(fragment.find("probeOvertravel") == std::string::npos);
+  fusion::RunInput input;
   input.properties = {{"surfaceX_X", 12}, {"surfaceX_I", 12}, {"surfaceX_G", 55}, {"surfaceX_Z", -5}};
   const fusion::RunResult run = runFragment(fragment, "surfaceX", input);
   CHECK_MESSAGE(run.ok(), reportOf(run));
@@ -92,20 +106,18 @@ TEST_CASE("a fragment switches the probe as the control and its own macros do, n
   CHECK(errorsOf(driver::convert(silent)).contains("no-probe-code"));
 }
 
-TEST_CASE("a fragment prints nothing where the operation has an overtravel or a ball that cannot be meant") {
+TEST_CASE("a fragment prints nothing where the ball has no radius") {
   const DataFolder folder;
   const std::string fragment = fragmentOf(ownMacrosFor(folder, "fanuc-0i-md"));
   fusion::RunInput input;
   input.toolDiameter = 6;
-  input.cycle = {{"clearance", 15}, {"probeOvertravel", -8}};
+  input.cycle = {{"clearance", 15}};
   input.properties = {{"surfaceX_X", 12}, {"surfaceX_I", 12}, {"surfaceX_G", 55}, {"surfaceX_Z", -5}};
   const auto errorOf = [&] {
     const fusion::RunResult run = runFragment(fragment, "surfaceX", input);
     CHECK(run.text.empty());
     return run.errors.empty() ? std::string() : run.errors.front();
   };
-  CHECK(errorOf() == "surface-x: cycle.probeOvertravel is negative");
-  input.cycle["probeOvertravel"] = 0;
   CHECK(runFragment(fragment, "surfaceX", input).ok());
   input.toolDiameter = 0;
   CHECK(errorOf() == "surface-x: tool.diameter / 2 is not above 0");
@@ -127,7 +139,7 @@ TEST_CASE("a fragment with another macro set leaves G91 in force where the sourc
   driver::ConvertOptions convert = ownMacrosFor(folder, "fanuc-0i-md");
   fusion::RunInput input;
   input.toolDiameter = 6;
-  input.cycle = {{"clearance", 15}, {"probeOvertravel", 8}};
+  input.cycle = {{"clearance", 15}};
   input.properties = {{"surfaceX_X", 12}, {"surfaceX_I", 12}, {"surfaceX_G", 54}, {"surfaceX_Z", -5}};
   for (const char* end : {"", " SeqC ' G90' EOL\n"}) {
     std::string blocks = kBlocks;

@@ -189,6 +189,29 @@ TEST_CASE("a damaged fragment never agrees") {
   }
 }
 
+TEST_CASE("a fragment has to do with what a drilling operation has, and searches as far as the source") {
+  driver::ConvertOptions convert;
+  convert.inputs = {kExamples + "surface-x"};
+  convert.source.prog = kExamples + "post.txt";
+  convert.to = "fusion";
+  convert.probeMacros = "dotek";
+  const driver::Outcome written = driver::convert(convert);
+  REQUIRE(written.status == 0);
+  const std::string good = written.files.front().text;
+  const TestFolder scratch("dotek-verify-targets");
+  const auto verdictOf = [&](const std::string& text) {
+    driver::VerifyOptions run = options("fusion");
+    run.probeMacros = "dotek";
+    run.translation = scratch.write("edited.js", text);
+    const driver::Outcome outcome = driver::verify(run);
+    return outcome.output.substr(0, outcome.output.find(':'));
+  };
+  CHECK(verdictOf(good) == "AGREES");
+  CHECK(verdictOf(edited(good, "G65 P8811 X\" + ", "G65 P8811 Q2. X\" + ")) == "DIFFERS");
+  CHECK(verdictOf(edited(good, "\"G65 P8811 X\" + ",
+                         "\"G65 P8811 Q\" + cycle.probeOvertravel + \" X\" + ")) != "AGREES");
+}
+
 TEST_CASE("a fragment without its checks takes what the dialog rejects") {
   std::string text = converted("fusion");
   for (std::size_t at = 0; (at = text.find("error(localize(", at)) != std::string::npos; at += 4)
