@@ -2,6 +2,7 @@
 
 #include "frontend/gibbs/Ast.h"
 #include "frontend/gibbs/Cycle.h"
+#include "ir/Evaluate.h"
 #include "ir/Fold.h"
 #include "ir/Match.h"
 #include "ir/Rewrite.h"
@@ -9,6 +10,7 @@
 #include "support/Picture.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <iterator>
 #include <map>
@@ -173,6 +175,43 @@ std::set<ir::VariableId> limitsOf(const ir::Cycle& cycle) {
   return out;
 }
 
+// By parameters that say at which angle a face is expected: that of the faces that a path shows, which are
+// across its touches.
+std::map<ir::VariableId, double> faceAnglesOf(const ir::Cycle& cycle) {
+  constexpr double kSame = 1e-9;
+  std::map<ir::VariableId, double> out;
+  for (const ir::CycleStatement& statement : cycle.body) {
+    const auto* call = std::get_if<ir::CallCycle>(&statement.node);
+    if (call == nullptr || !call->axis) continue;
+    const double face = *call->axis == ir::Axis::X ? 90 : 0;
+    for (const ir::CycleArgument& given : call->arguments) {
+      if (given.parameter != stdlib::roleName(stdlib::ArgumentRole::FaceAngle)) continue;
+      std::set<ir::VariableId> read;
+      ir::eachNode(given.value, [&](const ir::Expression& node) {
+        if (const auto* use = std::get_if<ir::VariableUse>(&node.node)) read.insert(use->variable);
+      });
+      if (read.size() != 1 || cycle.variable(*read.begin()).role != ir::Role::Parameter) continue;
+      const auto at = [&](double value) {
+        ir::Environment known(cycle.variables.size());
+        known[*read.begin()] = ir::Scalar::of(value);
+        return ir::evaluate(*given.value, known);
+      };
+      const ir::Scalar none = at(0), one = at(1), two = at(2);
+      if (!none.known() || !one.known() || !two.known()) continue;
+      const double slope = one.value - none.value;
+      const bool straight = std::abs(two.value - none.value - 2 * slope) < kSame;
+      if (straight && std::abs(slope) > kSame) out[*read.begin()] = (face - none.value) / slope;
+    }
+  }
+  return out;
+}
+
+// A face has two directions: the one nearer to the first value.
+double besideFirst(double face, const verify::DrawField& field) {
+  constexpr double kHalfTurn = 180;
+  return field.initial ? *field.initial + std::remainder(face - *field.initial, kHalfTurn) : face;
+}
+
 // The height at the entry is read before anything moves.
 bool readsEntryHeight(const ir::Cycle& cycle, const stdlib::Control& control) {
   bool reads = false;
@@ -230,6 +269,7 @@ void takeFields(const LoweredCycle& lowered, const CycleFolder& folder, const Lo
   plan.bounds = std::make_shared<verify::Bounds>(lowered.cycle);
   const std::set<double> compared = ir::constantsOf(lowered.cycle.checks);
   const std::set<ir::VariableId> limits = limitsOf(lowered.cycle);
+  const std::map<ir::VariableId, double> faces = faceAnglesOf(lowered.cycle);
   const std::map<std::string, std::vector<double>> offered = offeredIn(folder);
   for (ir::VariableId id = 0; id < lowered.cycle.variables.size(); ++id) {
     const ir::Variable& variable = lowered.cycle.variable(id);
@@ -244,6 +284,7 @@ void takeFields(const LoweredCycle& lowered, const CycleFolder& folder, const Lo
     if (const auto list = offered.find(gibbs::foldCase(variable.name));
         list != offered.end() && ir::uses(lowered.cycle, id))
       field.choices = list->second;
+    if (const auto face = faces.find(id); face != faces.end()) field.usual = besideFirst(face->second, field);
     if (limits.contains(id)) field.thresholds.push_back(kBeyondMeasured);
     add(std::move(field), inputs, plan, lowered.macros);
   }

@@ -124,6 +124,32 @@ Limits limitsOfRun(const Limits& limits) {
   return out;
 }
 
+namespace {
+
+// The zero of the system in which the case begins is another one at the end.
+bool writesActive(const verify::Record& record, const verify::Entry& entry) {
+  const sim::Point3& zero = entry.zeros[entry.system - 54];
+  const double before[] = {zero.x, zero.y, zero.z};
+  for (std::uint32_t axis = 0; axis < 3; ++axis) {
+    const auto after = record.zeros.find({entry.system, axis});
+    if (after != record.zeros.end() && after->second != before[axis]) return true;
+  }
+  return false;
+}
+
+// Those that begin where an earlier one of them has moved the zero of `system`; all where a statement has.
+double measuresAfterDatum(const verify::Record& source, std::uint32_t system) {
+  const auto sets = [&](const verify::Measure& measure) {
+    return std::any_of(measure.datums.begin(), measure.datums.end(),
+                       [&](const auto& datum) { return datum.first.first == system; });
+  };
+  const auto first = std::find_if(source.measures.begin(), source.measures.end(), sets);
+  const auto all = static_cast<double>(source.measures.size());
+  return first == source.measures.end() ? all : static_cast<double>(source.measures.end() - first) - 1;
+}
+
+} // namespace
+
 verify::CompareRules programRules(const VerificationSource& from, const stdlib::Control& control,
                                   const stdlib::MacroSet* sourceSet, const stdlib::MacroSet* set) {
   verify::CompareRules rules;
@@ -135,6 +161,19 @@ verify::CompareRules programRules(const VerificationSource& from, const stdlib::
   const stdlib::CodeInfo* const wait = control.find(stdlib::Function::MachineCoordinates);
   rules.waits = wait != nullptr && wait->grade != "assumed";
   return rules;
+}
+
+void allowForDatums(verify::CompareRules& rules, const verify::Record& source, const verify::Entry& entry,
+                    const stdlib::Control& control, bool byText) {
+  if (!writesActive(source, entry)) return;
+  rules.tolerance = std::max(rules.tolerance, rules.results);
+  if (!byText) return;
+  // A zero that was measured lies beside the grid on which the control rounds words: each measure after it
+  // goes back by such a word, half an increment beside where it began at most, and the next begins there.
+  const double rounded =
+      kRoundedWord * std::pow(10, -control.decimals) * measuresAfterDatum(source, entry.system);
+  rules.tolerance = std::max(rules.tolerance, rounded);
+  rules.results = std::max(rules.results, rounded); // contacts on round or turned surfaces follow
 }
 
 double resultTolerance(const stdlib::Control& one, const stdlib::Control& other) {

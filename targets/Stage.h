@@ -35,6 +35,10 @@ inline constexpr double kReach = 12;
 // macros of two sets (nullptr: none).
 verify::CompareRules programRules(const VerificationSource& from, const stdlib::Control& control,
                                   const stdlib::MacroSet* sourceSet, const stdlib::MacroSet* set);
+// `rules` for a run of the source from `entry`: what follows a write of the active system is as exact as the
+// control computes it. `byText`: the target's macros run by their text on `control`.
+void allowForDatums(verify::CompareRules& rules, const verify::Record& source, const verify::Entry& entry,
+                    const stdlib::Control& control, bool byText);
 // What results may differ by where one of the controls computes with eight digits, mm.
 double resultTolerance(const stdlib::Control& one, const stdlib::Control& other);
 

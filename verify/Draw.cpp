@@ -185,6 +185,11 @@ double Draws::value(std::size_t index, bool near, std::uint32_t attempt, Random&
     return field.firstSystem + static_cast<double>(random.whole(0, kLastSystem - kFirstSystem));
   if (!field.choices.empty()) return field.choices[random.below(field.choices.size())];
   if (field.initial && random.chance(keeps(attempt))) return rounded(*field.initial, field.decimals);
+  if (field.usual && random.chance(0.8)) {
+    constexpr double kBeside = 0.5;
+    const double beside = random.chance(0.5) ? 0 : random.between(-kBeside, kBeside);
+    return limited(field, *field.usual + beside);
+  }
   switch (field.kind) {
   case Kind::Flag: return static_cast<double>(random.whole(0, 1));
   case Kind::Count: return smallNumber(field, 0, random);

@@ -29,6 +29,7 @@ struct DrawField {
   std::vector<double> extended;   // of a work offset: numbers beside those that stand for G54.1 Pn
   bool extendedAlone = false;     // the six are not offered
   std::optional<double> fixed;    // by --set or the job: always this
+  std::optional<double> usual;    // what it says of the surfaces of the path
 
   // Of a work offset the G code that the value is: 54 to 59; 0: none of them.
   std::uint32_t systemOf(double value) const {

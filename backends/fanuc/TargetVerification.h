@@ -100,6 +100,7 @@ private:
   const Translation& translation_;
   const stdlib::Control& control_;
   const stdlib::MacroSet *sourceSet_, *set_;
+  const bool macrosHaveText_; // those of `set_`, which run by it
   const Limits limits_ = limitsOfRun(from_.session.limits());
   verify::Stand stand_;
   FanucText text_;

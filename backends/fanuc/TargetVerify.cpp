@@ -33,17 +33,6 @@ void traceResults(const verify::Record& record, sim::Trace& trace) {
   }
 }
 
-// The zero of the system in which the case begins is another one at the end.
-bool writesActive(const verify::Record& record, const verify::Entry& entry) {
-  const sim::Point3& zero = entry.zeros[entry.system - 54];
-  const double before[] = {zero.x, zero.y, zero.z};
-  for (std::uint32_t axis = 0; axis < 3; ++axis) {
-    const auto after = record.zeros.find({entry.system, axis});
-    if (after != record.zeros.end() && after->second != before[axis]) return true;
-  }
-  return false;
-}
-
 std::uint32_t programNumber(const std::string& text) {
   const std::size_t at = text.find("\nO");
   return at == std::string::npos ? 0 : static_cast<std::uint32_t>(std::atoi(text.c_str() + at + 2));
@@ -55,6 +44,7 @@ FanucVerification::FanucVerification(const VerificationSource& source)
     : from_(source), translation_(*source.plan.translation), control_(*source.inputs.control),
       sourceSet_(source.session.macroSet(source.plan.sourceMacros)),
       set_(source.session.macroSet(source.plan.targetMacros)),
+      macrosHaveText_(set_ != nullptr && source.session.data().find("macrob", set_->name) != nullptr),
       stand_(control_,
              set_ == nullptr ? std::vector<const stdlib::MacroSet*>{}
                              : std::vector<const stdlib::MacroSet*>{set_},
@@ -214,9 +204,8 @@ void FanucVerification::compareReturn(const verify::Record& record, const verify
 
 verify::CompareRules FanucVerification::rulesFor(const TargetCase& now, const verify::Record& source) const {
   verify::CompareRules rules = programRules(from_, control_, sourceSet_, set_);
-  // After a write of the system that is active, what follows is as exactly as the control computes.
-  const bool computed = from_.plan.computesPlaces || writesActive(source, now.entry);
-  rules.tolerance = computed ? rules.results : from_.options.tolerance;
+  rules.tolerance = from_.plan.computesPlaces ? rules.results : from_.options.tolerance;
+  allowForDatums(rules, source, now.entry, control_, macrosHaveText_);
   // Where one control counts in eight digits and the other in fifteen, a computed word may be rounded the
   // other way.
   if (from_.plan.computesPlaces && control_.arithmetic != from_.inputs.sourceControl->arithmetic)

@@ -176,10 +176,8 @@ private:
       if (meant.answer != SourceQuestions::Answer::Runs || !result.ok()) continue;
       const std::optional<Compiled> made = compiled(result.text, out);
       if (!made) return;
-      verify::CompareRules rules = rulesFor(now);
-      rules.tolerance = rules.results; // what follows is as exactly as the control computes the offset
       std::vector<verify::Difference> found =
-          verify::compare(meant.record, runCode(*made, now, now.entry), rules);
+          verify::compare(meant.record, runCode(*made, now, now.entry), rulesFor(now, meant.record));
       for (verify::Difference& one : found)
         one.text = fmt::format("with {} as `{}`, the system in force: {}", numberText(property->second),
                                field.name, one.text);
@@ -229,8 +227,7 @@ private:
         *now.shown = {runCode(*made, now, entry, verify::Stand::Way::KeepMoves), std::move(who)};
     };
     show(now.entry, "");
-    const verify::CompareRules rules = rulesFor(now);
-    add(verify::compare(*now.source, record, rules), made->id, out);
+    add(verify::compare(*now.source, record, rulesFor(now, *now.source)), made->id, out);
     if (now.questions == nullptr || now.posted == nullptr || !out.differences.empty()) return;
     // With another work system, tool length or mode in force than the source selects.
     std::vector<verify::OtherCaller> others =
@@ -240,6 +237,7 @@ private:
     std::optional<verify::Record> keeps;
     for (const verify::OtherCaller& other : others) {
       const SourceQuestions::Ran meant = now.questions->from(other.entry);
+      const verify::CompareRules rules = rulesFor(now, meant.record);
       if (meant.answer != SourceQuestions::Answer::Runs ||
           !verify::runsAlike(usualRun(now, other.entry, keeps), meant.record, rules))
         continue;
@@ -259,17 +257,17 @@ private:
               return runCode(*made, now, now.entry, verify::Stand::Way::Run, none);
             },
             [&](const verify::Record& source) {
-              verify::CompareRules own =
-                  rules; // alarms that the source itself raises are printed as they are
+              // Alarms that the source itself raises are printed as they are.
+              verify::CompareRules own = rulesFor(now, source);
               own.sameAlarmNumbers = own.sameAlarmNumbers || source.alarmKind.empty();
               return own;
             },
             control_.arithmetic == stdlib::Arithmetic::Decimal8),
         made->id, out);
     const bool exact = control_.arithmetic == stdlib::Arithmetic::Decimal8 && sourceSet_ == set_;
-    add(compareOffParts(now, {rules.overtravel, exact},
+    add(compareOffParts(now, {rulesFor(now, *now.source).overtravel, exact},
                         [&](const verify::Record& meant, sim::World& world) {
-                          return verify::compare(meant, runIn(world, *made, now), rules);
+                          return verify::compare(meant, runIn(world, *made, now), rulesFor(now, meant));
                         }),
         made->id, out);
     runShifted(*made, now, record, out);
@@ -322,8 +320,9 @@ private:
     return record;
   }
 
-  verify::CompareRules rulesFor(const TargetCase& now) const {
+  verify::CompareRules rulesFor(const TargetCase& now, const verify::Record& source) const {
     verify::CompareRules rules = programRules(from_, control_, sourceSet_, set_);
+    allowForDatums(rules, source, now.entry, control_, macros_.has_value());
     const bool given = from_.plan.fixedHosts.contains("overtravel");
     if (const auto host = now.drawn.hosts.find("overtravel");
         given && sourceSet_ != set_ && host != now.drawn.hosts.end())
