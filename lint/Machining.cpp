@@ -19,6 +19,8 @@ bool isOneOf(double code, Codes codes) {
 // M codes that neither turn the spindle nor stop it, on every machine of the family.
 constexpr std::array kNeutral = {0.0, 1.0, 7.0, 8.0, 9.0, 10.0, 11.0, 30.0, 2.0, 48.0, 49.0};
 
+constexpr double kOffsetOfHaas = 154; // with P a work offset
+
 struct ModeCodes {
   Mode mode;
   double begin, begin2, end;
@@ -105,7 +107,8 @@ Machining after(const ir::ProgramStatement& statement, std::size_t at, const Mac
   for (const ir::Word& word : block->words) {
     const double* code = ir::constantValue(word.value);
     if ((word.address == 'G' || word.address == 'M') &&
-        (code == nullptr || (word.address == 'G' && *code >= 100)))
+        (code == nullptr ||
+         (word.address == 'G' && *code >= 100 && !(*code == kOffsetOfHaas && hasWord(*block, 'P')))))
       return unknown(before);
   }
   Machining out = within(*block, at, before);

@@ -9,8 +9,14 @@ namespace dotek::lint {
 namespace {
 
 constexpr std::uint32_t kContact = 5061;
-// Codes whose axis words are no target of a plain move.
-constexpr std::array<double, 12> kNoMove = {2, 3, 4, 10, 28, 30, 31, 52, 53, 65, 66, 92};
+// Codes whose axis words move nothing: they are limits, centres, axes, coordinates and offsets.
+constexpr std::array<double, 12> kNoMotion = {4, 10, 22, 50.1, 51, 51.1, 52, 68, 68.2, 92, 65, 66};
+// Codes whose axis words are another motion than a plain move.
+constexpr std::array<double, 6> kOtherMotion = {2, 3, 28, 30, 31, 53};
+
+template <std::size_t N> bool hasAnyCode(const ir::NcBlock& block, const std::array<double, N>& codes) {
+  return std::any_of(codes.begin(), codes.end(), [&](double code) { return hasCode(block, 'G', code); });
+}
 
 } // namespace
 
@@ -24,14 +30,24 @@ const ir::NcBlock* skipOf(const ir::ProgramStatement& statement) {
   return block != nullptr && hasCode(*block, 'G', 31) ? block : nullptr;
 }
 
+bool moves(const ir::NcBlock& block) {
+  return axesOf(block) != 0 && !hasAnyCode(block, kNoMotion);
+}
+
 bool isPlainMove(const ir::NcBlock& block) {
-  return axesOf(block) != 0 &&
-         std::none_of(kNoMove.begin(), kNoMove.end(), [&](double code) { return hasCode(block, 'G', code); });
+  return moves(block) && !hasAnyCode(block, kOtherMotion);
 }
 
 bool isPlainMove(const ir::ProgramStatement& statement) {
   const auto* block = std::get_if<ir::NcBlock>(&statement.node);
   return block != nullptr && isPlainMove(*block);
+}
+
+bool choosesSystem(const ir::NcBlock& block) {
+  return std::any_of(block.words.begin(), block.words.end(), [](const ir::Word& word) {
+    const double* code = word.address == 'G' ? ir::constantValue(word.value) : nullptr;
+    return code != nullptr && ((*code >= 54 && *code < 60) || *code == 154 || (*code >= 110 && *code <= 129));
+  });
 }
 
 std::optional<AxisSet> contactAxis(std::uint32_t variable) {

@@ -15,10 +15,15 @@ AxisSet axesOf(const ir::NcBlock& block);
 
 // The block of a G31; nullptr: another statement.
 const ir::NcBlock* skipOf(const ir::ProgramStatement& statement);
+// The words X, Y and Z of the block, and it has one, move the machine: they are no offset, no shift, no
+// centre, no dwell.
+bool moves(const ir::NcBlock& block);
 // A block that moves X, Y or Z by G0, G1, or by the motion in force: no skip move, no reference point, no
 // dwell, no offset.
 bool isPlainMove(const ir::NcBlock& block);
 bool isPlainMove(const ir::ProgramStatement& statement);
+// A code that chooses a work offset: G54 to G59, G54.1 P and, on a Haas, G154 P and G110 to G129.
+bool choosesSystem(const ir::NcBlock& block);
 // #5061 to #5063: the axis of the contact position; nothing: another variable.
 std::optional<AxisSet> contactAxis(std::uint32_t variable);
 

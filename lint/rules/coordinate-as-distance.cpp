@@ -53,10 +53,7 @@ bool touchesAgain(const ir::ProgramStatement& back, const ir::ProgramStatement& 
 
 bool takesOffset(const ir::ProgramStatement& statement) {
   const auto& block = std::get<ir::NcBlock>(statement.node);
-  if (hasCode(block, 'G', 43) || hasCode(block, 'G', 44)) return true;
-  for (int system = 54; system <= 59; ++system)
-    if (hasCode(block, 'G', system)) return true;
-  return false;
+  return hasCode(block, 'G', 43) || hasCode(block, 'G', 44) || choosesSystem(block);
 }
 
 // The block before, labels, comments and stores aside, is a G91 without a move: these are meant as distances.

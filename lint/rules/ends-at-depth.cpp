@@ -7,11 +7,14 @@
 namespace dotek::lint::rule {
 namespace {
 
+constexpr double kLowest = -1e9;
+
 struct Height {
-  std::optional<double> z; // of the last move along Z; nothing: not known
-  bool skipped = false;    // a touch went down since
-  bool touched = false;    // the tool in the spindle has, on some path
-  double highest = -1e9;   // of plain moves of this tool on a path to here: that to an alarm is another
+  std::optional<double> z;  // of the last move along Z; nothing: not known
+  bool skipped = false;     // a touch went down since
+  bool touched = false;     // the tool in the spindle has, on some path
+  double highest = kLowest; // of plain moves of this tool on a path to here: that to an alarm is another
+  bool shifted = false;     // the coordinates count from elsewhere since
   bool operator==(const Height&) const = default;
 };
 
@@ -31,21 +34,35 @@ void checkProgram(const NcProgram& nc, const Probing& probing, Report& report) {
         if (block != nullptr && hasCode(*block, 'M', 6)) return {}; // another tool
         const auto z = block == nullptr ? std::nullopt : wordValue(*block, 'Z');
         height.touched = height.touched || skipOf(body[at]) != nullptr;
-        if (block != nullptr && isPlainMove(body[at]) && z) height.highest = std::max(height.highest, *z);
-        const Height unknown{std::nullopt, false, height.touched, height.highest};
+        const bool hasZ = block != nullptr && hasWord(*block, 'Z');
+        if (hasZ && !moves(*block)) {
+          // The machine stays where it is; Z words before and after are not compared.
+          height.shifted = true;
+          return height;
+        }
+        if (hasZ && height.shifted) {
+          height.highest = kLowest;
+          height.shifted = false;
+        }
+        const DistanceMode mode = statedMode(body[at]).value_or(*modes[at]);
+        const bool absolute = mode == DistanceMode::Absolute;
+        if (z && isPlainMove(*block) && (absolute || mode == DistanceMode::AsBefore))
+          height.highest = std::max(height.highest, *z);
+        const Height unknown{std::nullopt, false, height.touched, height.highest, height.shifted};
         if (probing.step(body[at]).kind == ProbeStep::Kind::Protected || callOf(body[at]) != nullptr)
           return unknown;
         if (block == nullptr) return height;
         for (const double code : {28.0, 30.0, 53.0})
           if (hasCode(*block, 'G', code) && axesOf(*block) != 0) return unknown;
-        if (!hasWord(*block, 'Z')) return height;
-        const bool absolute = statedMode(body[at]).value_or(*modes[at]) == DistanceMode::Absolute;
-        return {absolute ? z : std::nullopt, skipOf(body[at]) != nullptr, height.touched, height.highest};
+        if (!hasZ) return height;
+        return {absolute ? z : std::nullopt, skipOf(body[at]) != nullptr, height.touched, height.highest,
+                height.shifted};
       },
       [](Height& into, const Height& other) {
         const Height before = into;
         into.highest = std::max(into.highest, other.highest);
         into.touched = into.touched || other.touched;
+        into.shifted = into.shifted || other.shifted;
         if (into.z && (into.z != other.z || into.skipped != other.skipped)) {
           into.z.reset();
           into.skipped = false;

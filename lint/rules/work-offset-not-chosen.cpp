@@ -1,6 +1,8 @@
 #include "lint/NcProgram.h"
 #include "lint/Skips.h"
 
+#include <algorithm>
+
 namespace dotek::lint::rule {
 namespace {
 
@@ -21,12 +23,11 @@ void checkProgram(const ir::Program& program, const Probing& probing, Report& re
     const auto* block = std::get_if<ir::NcBlock>(&statement.node);
     if (block == nullptr) continue;
     change = change || hasCode(*block, 'M', 6);
-    for (const ir::Word& word : block->words) {
-      const double* code = word.address == 'G' ? ir::constantValue(word.value) : nullptr;
-      if (word.address != 'G') continue;
-      // G52 to G59, their extended forms, G92, and a code that is computed.
-      if (code == nullptr || (*code >= 52 && *code < 60 && *code != 53) || *code == 92) return;
-    }
+    if (choosesSystem(*block) || hasCode(*block, 'G', 52) || hasCode(*block, 'G', 92)) return;
+    if (std::any_of(block->words.begin(), block->words.end(), [](const ir::Word& word) {
+          return word.address == 'G' && ir::constantValue(word.value) == nullptr;
+        }))
+      return; // a code that is computed
     if (first == nullptr && isPlainMove(statement) && (axesOf(*block) & 3) != 0) first = &statement;
   }
   if (!change || !measures || first == nullptr) return;

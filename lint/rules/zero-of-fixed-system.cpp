@@ -42,15 +42,11 @@ public:
   }
 
 private:
-  // G54 to G59, or one that is computed: it knows which zero is in force.
+  // G54 to G59 or a further one: it knows which zero is in force.
   bool choosesSystem() const {
     for (const ir::ProgramStatement& statement : nc_.program.body) {
       const auto* block = std::get_if<ir::NcBlock>(&statement.node);
-      if (block == nullptr) continue;
-      for (const ir::Word& word : block->words) {
-        const double* code = word.address == 'G' ? ir::constantValue(word.value) : nullptr;
-        if (code != nullptr && *code >= 54 && *code < 60) return true;
-      }
+      if (block != nullptr && lint::choosesSystem(*block)) return true;
     }
     return false;
   }
