@@ -1,13 +1,43 @@
 #include "lint/NcProgram.h"
+#include "lint/ToolLength.h"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
 namespace dotek::lint::rule {
 namespace {
 
+// What touches may be a tool whose length is not known yet: the program, or one that it calls, gives an
+// entry of the table of tools a new value, or nobody knows what the called one does.
+bool mayMeasureTool(const NcProgram& nc) {
+  const ToolLengths& lengths = toolLengthsOf(nc.project);
+  if (lengths.measuresTool(nc.program)) return true;
+  const Probing& probing = probingOf(nc.project);
+  bool own = false;
+  for (const ir::ProgramStatement& statement : nc.program.body) {
+    if (callOf(statement) == nullptr) continue;
+    const ProbeStep step = probing.step(statement);
+    if (step.kind == ProbeStep::Kind::PackCall) return true;
+    if (step.kind != ProbeStep::Kind::OwnCall && step.kind != ProbeStep::Kind::Call) continue;
+    if (!probing.isOwn(step.program)) return true;
+    own = true;
+  }
+  if (!own) return false;
+  bool out = !lengths.switching().empty() &&
+             std::any_of(nc.program.body.begin(), nc.program.body.end(), [&](const auto& statement) {
+               const auto called = calledProgram(statement);
+               return called && lengths.switching().contains(*called);
+             });
+  eachProgram(nc.project, [&](const ir::Program& program, const macrob::File&) {
+    out = out || lengths.measuresTool(program);
+  });
+  return out;
+}
+
 void check(const NcProgram& nc, Report& report) {
   const auto& facts = nc.machining();
+  std::optional<bool> measures;
   // Numbers that are always some steps away from the tool's are a second set of offsets.
   int same = 0, apart = 0;
   bool anyH = false;
@@ -23,7 +53,8 @@ void check(const NcProgram& nc, Report& report) {
     const int tool = codeWord(*block, 'M', 6) != nullptr
                          ? static_cast<int>(wordValue(*block, 'T').value_or(facts[i]->called))
                          : facts[i]->tool;
-    if (facts[i]->probes) { // a probe, or a tool that is measured
+    if (facts[i]->probes && code != nullptr && !measures) measures = mayMeasureTool(nc);
+    if (facts[i]->probes && measures == true) {
       anyH = anyH || h != nullptr;
       continue;
     }
