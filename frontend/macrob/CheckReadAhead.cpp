@@ -7,6 +7,9 @@
 
 #include <algorithm>
 #include <array>
+#include <unordered_map>
+#include <utility>
+#include <vector>
 
 namespace dotek::frontend::macrob {
 namespace {
@@ -56,12 +59,79 @@ std::optional<bool> limitOf(const Words& words, const stdlib::Control& control) 
   return stdlib::readAheadLimit(control, p == nullptr ? std::nullopt : literal(*p));
 }
 
+bool hasCode(const Block& block, char letter, double code) {
+  const auto* words = std::get_if<Words>(&block.body);
+  return words != nullptr && findCode(*words, letter, code) != nullptr;
+}
+
+// Whether G103 P1 is in force before each block on all ways to it, those of GOTO and M97 P among them. Empty:
+// the program has no G103.
+class Limits {
+public:
+  Limits(const Program& program, const stdlib::Control& control) : blocks_(program.blocks) {
+    if (std::none_of(blocks_.begin(), blocks_.end(), [](const Block& one) { return hasCode(one, 'G', 103); }))
+      return;
+    for (std::size_t i = 0; i < blocks_.size(); ++i)
+      if (blocks_[i].sequenceNumber) numbered_[blocks_[i].sequenceNumber->value].push_back(i);
+    before_.resize(blocks_.size());
+    arrive(0, false);
+    while (!open_.empty()) {
+      const std::size_t at = open_.back();
+      open_.pop_back();
+      leave(at, control);
+    }
+  }
+  bool before(std::size_t block) const { return !before_.empty() && before_[block] == true; }
+
+private:
+  void arrive(std::size_t at, bool limited) {
+    if (at >= blocks_.size() || before_[at] == false || before_[at] == limited) return;
+    before_[at] = limited;
+    open_.push_back(at);
+  }
+  void arriveAt(const std::optional<double>& number, bool limited) {
+    if (number && !(*number >= 0 && *number < 1e15)) return;
+    if (number) {
+      if (const auto found = numbered_.find(static_cast<std::uint64_t>(*number)); found != numbered_.end())
+        for (const std::size_t at : found->second)
+          arrive(at, limited);
+    } else if (!std::exchange(computed_[limited ? 1 : 0], true)) { // to every number
+      for (const auto& [value, places] : numbered_)
+        for (const std::size_t at : places)
+          arrive(at, limited);
+    }
+  }
+  void leave(std::size_t at, const stdlib::Control& control) {
+    const Block& block = blocks_[at];
+    bool limited = *before_[at];
+    bool falls = !std::holds_alternative<Goto>(block.body);
+    if (const Goto* jump = gotoOf(block)) arriveAt(literal(*jump->target), limited);
+    if (const auto* words = std::get_if<Words>(&block.body)) {
+      limited = limitOf(*words, control).value_or(limited);
+      if (const nc::Word* p = findWord(*words, 'P'); p != nullptr && hasCode(block, 'M', 97))
+        arriveAt(literal(*p), limited);
+      for (const double code : {2.0, 30.0, 99.0})
+        falls = falls && findCode(*words, 'M', code) == nullptr;
+    }
+    if (falls || block.blockDelete) arrive(at + 1, limited);
+  }
+
+  const std::vector<Block>& blocks_;
+  std::unordered_map<std::uint64_t, std::vector<std::size_t>> numbered_;
+  std::vector<std::optional<bool>> before_; // nothing: no way leads there
+  std::vector<std::size_t> open_;
+  std::array<bool, 2> computed_{}; // a jump by a computed number has arrived without the limit, with it
+};
+
 // Follows the text: nothing is known of a block that jumps arrive at.
 class EarlyReads {
 public:
   EarlyReads(const stdlib::Control& control, Report& report) : control_(control), report_(report) {}
 
-  void look(const Block& block) {
+  // `limited`: before the block the control reads one block ahead only.
+  void look(const Block& block, bool limited) {
+    limited_ = limited;
+    if (limited_) moving_ = skipping_ = nullptr;
     if (moving_ != nullptr || skipping_ != nullptr)
       walk(block, [&](const Expression& expression, bool) {
         if (const auto number = variableNumber(expression)) read(expression.range, *number);
@@ -86,11 +156,7 @@ private:
   }
 
   void step(const Block& block, const Words& words) {
-    if (const auto limit = limitOf(words, control_)) {
-      limited_ = *limit;
-      if (limited_) moving_ = skipping_ = nullptr;
-      return;
-    }
+    if (limitOf(words, control_)) return;
     const Step step = stepOf(words, control_);
     if (step == Step::Ends) moving_ = skipping_ = nullptr;
     if (limited_ || (step != Step::Moves && step != Step::Skips)) return;
@@ -123,8 +189,9 @@ Diagnostic& reportReadAhead(SourceRange read, std::uint32_t variable, const stdl
 void positionReadEarly(const CheckedProgram& input, Report& report) {
   if (input.control == nullptr || input.control->readAheadStops.empty()) return;
   EarlyReads reads(*input.control, report);
-  for (const Block& block : input.program.blocks)
-    reads.look(block);
+  const Limits limits(input.program, *input.control);
+  for (std::size_t i = 0; i < input.program.blocks.size(); ++i)
+    reads.look(input.program.blocks[i], limits.before(i));
 }
 
 } // namespace dotek::frontend::macrob

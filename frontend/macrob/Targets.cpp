@@ -45,6 +45,7 @@ void collect(const Block& block, Numbers& own, Numbers& shared) {
   if (words == nullptr) return;
   if (findCode(*words, 'M', 99) != nullptr) shared.add(findWord(*words, 'P'));
   if (findCode(*words, 'M', 98) != nullptr) shared.add(findWord(*words, 'Q'));
+  if (findCode(*words, 'M', 97) != nullptr) own.add(findWord(*words, 'P'));
   const nc::Word* first = findWord(*words, 'P');
   const nc::Word* last = findWord(*words, 'Q');
   if (first == nullptr || last == nullptr || !isContourCycle(*words)) return;

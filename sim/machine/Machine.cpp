@@ -292,7 +292,11 @@ bool Machine::readCodes(const NcWords& w) {
     if ((code.flags & Code::Unknown) != 0)
       return inconclusive(unlistedText(control_->name, fmt::format("M{}", w.m[i]), true), 'M', i);
     if (code.function == Function::Other)
-      return inconclusive("what it does here is not known to Dotek", 'M', i);
+      return inconclusive(w.m[i] == 97
+                              ? "Dotek does not follow a local subprogram; for a run here write it as "
+                                "a program of its own, with M99, and call it with M98 P"
+                              : "what it does here is not known to Dotek",
+                          'M', i);
     if (code.function == Function::SubprogramCall) block_.call = 1;
   }
   return block_.call == 0 || stop(Ending::Call);
