@@ -1,5 +1,6 @@
 #include "lint/AskedVariables.h"
 
+#include "ir/Extremes.h"
 #include "ir/Walk.h"
 #include "lint/NcProgram.h"
 #include "lint/OffsetStates.h"
@@ -67,8 +68,10 @@ std::set<std::uint32_t> askedIn(const ir::Program& program) {
     if (!std::holds_alternative<ir::MachineVariable>(node.node)) return;
     if (const auto number = variableNumber(node)) out.insert(*number);
   };
-  for (const ir::ProgramStatement& statement : program.body) {
-    if (const ir::ConditionPtr* condition = ir::conditionOf(statement); condition != nullptr && *condition)
+  for (std::size_t i = 0; i < program.body.size(); ++i) {
+    const ir::ProgramStatement& statement = program.body[i];
+    const ir::ConditionPtr* condition = ir::conditionOf(statement);
+    if (condition != nullptr && *condition && !ir::keepsExtreme(program.body, i))
       ir::eachNode(*condition, take);
     if (callOf(statement) != nullptr) ir::eachNode(statement, take);
   }

@@ -10,7 +10,8 @@
 
 namespace dotek::lint {
 
-// In conditions and calls of the program.
+// In conditions and calls of the program. Those that only search for the greatest or the least of several are
+// not looked at.
 std::set<std::uint32_t> askedIn(const ir::Program& program);
 
 // Which programs of the files ask for each variable, and which of them run together. Computed once a project.

@@ -1,3 +1,4 @@
+#include "ir/Extremes.h"
 #include "ir/Walk.h"
 #include "lint/AfterSkip.h"
 #include "lint/AskedVariables.h"
@@ -93,8 +94,9 @@ void check(const NcProgram& nc, Report& report) {
     const ir::NcBlock* skip = skipOf(body[i]);
     if (skip == nullptr || mayAskControl(body[i]) || report.full(body[i].origin.range().file)) continue;
     const auto after = afterSkip(nc, i);
-    if (!after ||
-        std::any_of(after->begin(), after->end(), [&](std::size_t at) { return mayAskControl(body[at]); }))
+    if (!after || std::any_of(after->begin(), after->end(), [&](std::size_t at) {
+          return mayAskControl(body[at]) && !ir::keepsExtreme(body, at);
+        }))
       continue;
     std::optional<Taken> taken;
     std::set<std::uint32_t> held;

@@ -1,5 +1,6 @@
 // Follows values that come from where a skip move has ended that met nothing, through cells and calls.
 #include "ir/Evaluate.h"
+#include "ir/Extremes.h"
 #include "ir/Flow.h"
 #include "ir/Walk.h"
 #include "sim/machine/Run.h"
@@ -61,6 +62,8 @@ Run::FromMiss Run::computed(const Instruction& at, bool both, Function function)
 }
 
 template <class Holds> void Run::askMiss(const Instruction& at, bool both, Holds holds) {
+  // Which of several values is the greatest is no question about the move.
+  if (ir::keepsExtreme(code_.routineOf(place_).program->body, code_.statements[place_])) return;
   const FromMiss outcome = computed(at, both, [&](double x, double y) {
     return std::isfinite(x) && std::isfinite(y) ? (holds(x, y) ? 1.0 : 0.0) : std::nan("");
   });

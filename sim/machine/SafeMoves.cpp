@@ -1,5 +1,6 @@
 #include "sim/machine/SafeMoves.h"
 
+#include "ir/Extremes.h"
 #include "ir/Walk.h"
 #include "sim/machine/BackJumps.h"
 #include "sim/machine/SkipWants.h"
@@ -89,6 +90,13 @@ bool mayMove(const ir::ProgramStatement& statement) {
          });
 }
 
+// The condition of the statement, where it asks about what it compares: a search for the greatest or the
+// least value does not. nullptr: none.
+const ir::ConditionPtr* questionAt(const std::vector<ir::ProgramStatement>& body, std::size_t at) {
+  const ir::ConditionPtr* condition = ir::conditionOf(body[at]);
+  return condition == nullptr || !*condition || ir::keepsExtreme(body, at) ? nullptr : condition;
+}
+
 BlockSet::value_type blockOf(const ir::ProgramStatement& statement) {
   const SourceRange range = statement.origin.range();
   return {range.file, range.begin};
@@ -114,8 +122,8 @@ public:
     for (std::size_t i = 0; i < program.body.size(); ++i) {
       if (const auto target = jumpOf(program.body[i]))
         if (const auto label = labels.find(*target); label != labels.end()) jumps_.add(i, label->second);
-      const ir::ConditionPtr* condition = ir::conditionOf(program.body[i]);
-      if (condition == nullptr || !*condition) continue;
+      const ir::ConditionPtr* condition = questionAt(program.body, i);
+      if (condition == nullptr) continue;
       ir::eachNode(*condition, [&](const ir::Expression& node) {
         const auto* variable = std::get_if<ir::MachineVariable>(&node.node);
         const auto key = variable == nullptr ? std::nullopt : keyOf(variable->number);
@@ -155,10 +163,8 @@ private:
     return out;
   }
   void ask(std::size_t at) {
-    const ir::ProgramStatement& statement = program_.body[at];
-    const ir::ConditionPtr* condition = ir::conditionOf(statement);
-    if (condition == nullptr || !*condition) return;
-    asking.merge(sources(*condition, blockOf(statement)));
+    if (const ir::ConditionPtr* condition = questionAt(program_.body, at))
+      asking.merge(sources(*condition, blockOf(program_.body[at])));
   }
   // What a variable holds, and since which statement.
   struct Copy {
@@ -192,7 +198,7 @@ private:
   template <class Tests> void step(std::size_t at, const Tests& tests) {
     const ir::ProgramStatement& statement = program_.body[at];
     const BlockSet::value_type here = blockOf(statement);
-    if (const ir::ConditionPtr* condition = ir::conditionOf(statement); condition != nullptr && *condition) {
+    if (const ir::ConditionPtr* condition = questionAt(program_.body, at)) {
       ir::eachNode(*condition, [&](const ir::Expression& node) {
         const auto* variable = std::get_if<ir::MachineVariable>(&node.node);
         if (const auto key = variable == nullptr ? std::nullopt : keyOf(variable->number))
@@ -240,7 +246,7 @@ BlockSet safeMoves(const std::vector<const ir::Program*>& programs, const stdlib
         if (does(body[i], stdlib::Function::Skip, control)) break;
         const Ended read = endsRead(body[i]);
         if (read.skip || (!moved && (read.places & axes).any()))
-          (ir::conditionOf(body[i]) != nullptr ? compared : kept) = true;
+          (questionAt(body, i) != nullptr ? compared : kept) = true;
         moved = moved || mayMove(body[i]);
       }
       if (compared && !kept) watched.insert(at);

@@ -283,3 +283,34 @@ TEST_CASE("miss: one that the program's IF cannot see is reported as that") {
   // One that the next move finds was an approach.
   CHECK_FALSE(unseen("#2=0\nG0 Z-5.\nG31 X-15. F1000\nG31 X5. F50\n#1=#5061\nIF[#2 GT 1.]GOTO91\n"));
 }
+
+TEST_CASE("miss: a search for the greatest or the least value asks nothing") {
+  Bench bench("dotek-miss-extreme");
+  const std::string touch = std::string(kDown) + "#9=#5063-#5083\nG0 Z15.\n";
+  const std::string rest = touch + "#131=#22\n";
+  for (const std::string search :
+       {"IF[#9 GT #22]THEN #22=#9\n", "IF[#22 LT #9]THEN #22=#9\n",
+        "IF[#9 LE #22]GOTO5\n#22=#9\n#23=#4\nN5\n", "IF[ABS[#9] GT #22]THEN #22=ABS[#9]\n",
+        "IF[#9 GT #22]GOTO4\nGOTO5\nN4 #22=#9\nN5\n"}) {
+    CAPTURE(search);
+    CHECK(bench.fails("#22=-99.\n#4=1\n" + touch + search + "#131=#22\n"));
+  }
+  CHECK(bench.fails("#22=-99.\n" + std::string(kDown) +
+                    "IF[#5063 GT #22]THEN #22=#5063-#5083\nG0 Z15.\n#131=#22\n"));
+  // A flag, an alarm, or a question afterwards is one.
+  CHECK(!bench.fails("#22=-99.\n" + touch + "IF[#9 GT #22]THEN #150=1\n"));
+  CHECK(!bench.fails("#22=-4.9\n" + touch + "IF[#9 LT #22]GOTO91\n"));
+  CHECK(!bench.fails("#22=-99.\n" + touch + "IF[#9 GT #22]THEN #22=#9\nIF[#22 LT [#26+0.01]]GOTO91\n"));
+}
+
+TEST_CASE("miss: the blind IF is named, and no search beside it") {
+  Bench bench("dotek-miss-blind");
+  const CommandResult out =
+      bench.run("#22=-999.\n#4=0\nWHILE[#4 LT 3]DO1\nG31 Z#26 F1000\n"
+                "IF[#5063 LE [#26-1.]]THEN #3000=40(NO CONTACT)\n#9=#5063-#5083\nG0 Z15.\n"
+                "IF[#9 GT #22]THEN #22=#9\n#4=#4+1\nEND1\n#131=#22\n");
+  CAPTURE(out.err);
+  CHECK(countOf(out.err, "[miss-not-seen]") == 3);
+  CHECK(holds(out.err, "m.nc:7:"));
+  CHECK(!holds(out.err, "m.nc:10:"));
+}
