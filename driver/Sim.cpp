@@ -19,6 +19,7 @@
 #include "sim/machine/Compile.h"
 #include "sim/machine/EndText.h"
 #include "sim/machine/Machine.h"
+#include "sim/machine/Refusals.h"
 #include "sim/machine/Run.h"
 #include "sim/machine/SafeMoves.h"
 #include "sim/machine/Value.h"
@@ -29,6 +30,7 @@
 #include "sim/run/SimReport.h"
 #include "sim/run/SimWorld.h"
 #include "stdlib/Control.h"
+#include "stdlib/Lathe.h"
 #include "support/Ascii.h"
 #include "support/Decimal.h"
 #include "support/Files.h"
@@ -103,7 +105,9 @@ public:
         frontend::nc::mayHoldMacros(*chunks))
       return runLoaded(kept, machine);
     chunks->rewind();
-    return runStreamed(*chunks, machine);
+    const std::string lathe = latheOf(*chunks);
+    chunks->rewind();
+    return runStreamed(*chunks, machine, lathe);
   }
 
 private:
@@ -231,7 +235,8 @@ private:
       meaning = &*running_;
     }
     if (watched_ != nullptr) watched_->read(*control_, library->programs(), *id);
-    return runCode(sim::compile(library->programs(), *control_, session_.sources()), machine, meaning,
+    const std::size_t made = world_->setup().call.empty() ? 0 : 1;
+    return runCode(sim::compile(library->programs(), *control_, session_.sources(), made), machine, meaning,
                    advice);
   }
 
@@ -348,7 +353,21 @@ private:
   }
 
   // A program of plain blocks: block by block, in constant memory.
-  Outcome runStreamed(LineChunks& chunks, sim::Machine& machine) {
+  // Why the text counts as one for a lathe; "": it does not.
+  static std::string latheOf(LineChunks& chunks) {
+    constexpr std::size_t kMostWithout = 5000; // blocks: what shows it is among the first ones
+    stdlib::LatheSigns signs;
+    frontend::nc::Scanner scanner(chunks);
+    ir::NcWords words;
+    for (std::size_t n = 0; scanner.next(words) == frontend::nc::Scanner::Result::Block; ++n) {
+      signs.look(words, scanner.line());
+      if (signs.isOfMill() || (n >= kMostWithout && !signs.sign())) return "";
+    }
+    const auto sign = signs.sign();
+    return sign ? sim::latheText(sign->at, sign->what) : "";
+  }
+
+  Outcome runStreamed(LineChunks& chunks, sim::Machine& machine, const std::string& lathe) {
     std::optional<sim::Trace> trace;
     if (options_.trace) machine.setTrace(&trace.emplace(options_.trace));
     frontend::nc::Scanner scanner(chunks);
@@ -358,7 +377,13 @@ private:
     using Result = frontend::nc::Scanner::Result;
     Result result = Result::Block;
     while ((result = scanner.next(words)) == Result::Block) {
-      if (callsProgram(words, machine) || !machine.execute(words)) break;
+      if (callsProgram(words, machine)) break;
+      if (const auto meaning = lathe.empty() ? std::string_view() : stdlib::meaningOnLathe(words);
+          !meaning.empty()) {
+        machine.inconclusive(sim::onLatheText(lathe, meaning));
+        break;
+      }
+      if (!machine.execute(words)) break;
     }
     machine.setTrace(nullptr);
     trace.reset();

@@ -1,53 +1,48 @@
 #include "lint/Lathe.h"
 
-#include "frontend/macrob/BlockWords.h"
 #include "frontend/macrob/Calls.h"
+#include "stdlib/Lathe.h"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 
 namespace dotek::lint {
 namespace {
 
-using macrob::findAnyOf;
-using macrob::findCode;
-using macrob::findWord;
-
-// A tool change by M6 or a length by G43: a mill.
-bool isOfMill(const macrob::Words& words) {
-  return findCode(words, 'M', 6) != nullptr || findCode(words, 'G', 43) != nullptr;
-}
-
-std::string_view latheWork(const macrob::Words& words) {
-  const bool axes = findAnyOf(words, "XYZABC") != nullptr;
-  const bool turned = findAnyOf(words, "UW") != nullptr;
-  if (findCode(words, 'G', 50) != nullptr && findWord(words, 'S') != nullptr && !axes)
-    return "limits the speed of a spindle that turns the part";
-  for (const double cycle : {70.0, 71.0, 72.0, 73.0})
-    if (findCode(words, 'G', cycle) != nullptr && findWord(words, 'P') != nullptr &&
-        findWord(words, 'Q') != nullptr && !axes)
-      return "turns a contour by its first and its last block";
-  if (findCode(words, 'G', 28) != nullptr && turned && !axes)
-    return "goes to the reference point by U and W, which are X and Z by increments";
-  if (findCode(words, 'G', 10) != nullptr && turned && findWord(words, 'P') != nullptr &&
-      findAnyOf(words, "L") == nullptr)
-    return "adds to the offset of a turning tool";
-  return {};
+ir::NcWords numbersOf(const macrob::Words& words) {
+  ir::NcWords out;
+  for (const frontend::nc::Word& word : words.words) {
+    if (word.address < 'A' || word.address > 'Z') continue;
+    const double value = macrob::literal(word).value_or(std::numeric_limits<double>::quiet_NaN());
+    const bool code = value >= 0 && value < 1e5;
+    if (word.address == 'G')
+      out.addG(code ? static_cast<std::uint32_t>(std::lround(value * 10)) : ir::NcWords::kNoCode);
+    else if (word.address == 'M')
+      out.addM(code ? static_cast<std::uint32_t>(std::lround(value)) : ir::NcWords::kNoCode);
+    else
+      out.set(word.address, value);
+  }
+  return out;
 }
 
 } // namespace
 
 std::optional<LatheMark> latheMark(const macrob::File& file) {
-  std::optional<LatheMark> out;
+  stdlib::LatheSigns signs;
+  std::vector<const macrob::Block*> blocks;
   for (const macrob::Program& program : file.programs)
     for (const macrob::Block& block : program.blocks) {
       const auto* words = std::get_if<macrob::Words>(&block.body);
       if (words == nullptr) continue;
-      if (isOfMill(*words)) return std::nullopt;
-      if (out) continue;
-      if (const std::string_view what = latheWork(*words); !what.empty()) out = LatheMark{block.range, what};
+      signs.look(numbersOf(*words), blocks.size());
+      if (signs.isOfMill()) return std::nullopt;
+      blocks.push_back(&block);
     }
-  return out;
+  const auto sign = signs.sign();
+  if (!sign) return std::nullopt;
+  return LatheMark{blocks[sign->at]->range, sign->what};
 }
 
 bool isOfMills(std::string_view rule) {

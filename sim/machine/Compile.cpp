@@ -4,11 +4,14 @@
 #include "sim/machine/Arguments.h"
 #include "sim/machine/Compiler.h"
 #include "sim/machine/Decimal8.h"
+#include "sim/machine/Refusals.h"
+#include "stdlib/Lathe.h"
 #include "stdlib/ReadAhead.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 
 namespace dotek::sim {
 
@@ -17,9 +20,47 @@ std::uint64_t sequenceNumber(double value, const stdlib::Control& control) {
   return whole >= 1 && whole <= control.sequenceLast ? static_cast<std::uint64_t>(whole) : 0;
 }
 
+namespace {
+
+ir::NcWords numbersOf(const ir::NcBlock& block) {
+  ir::NcWords out;
+  for (const ir::Word& word : block.words) {
+    if (word.address < 'A' || word.address > 'Z') continue;
+    const double* value = ir::constantValue(word.value);
+    const bool code = value != nullptr && *value >= 0 && *value < 1e5;
+    if (word.address == 'G')
+      out.addG(code ? static_cast<std::uint32_t>(std::lround(*value * 10)) : ir::NcWords::kNoCode);
+    else if (word.address == 'M')
+      out.addM(code ? static_cast<std::uint32_t>(std::lround(*value)) : ir::NcWords::kNoCode);
+    else
+      out.set(word.address, value != nullptr ? *value : std::numeric_limits<double>::quiet_NaN());
+  }
+  return out;
+}
+
+// "": none is for a lathe.
+std::string latheOf(const std::vector<const ir::Program*>& programs, std::size_t made,
+                    const SourceMap& sources) {
+  stdlib::LatheSigns signs;
+  std::vector<SourceRange> places;
+  for (std::size_t i = made; i < programs.size(); ++i)
+    for (const ir::ProgramStatement& statement : programs[i]->body) {
+      const auto* block = std::get_if<ir::NcBlock>(&statement.node);
+      if (block == nullptr) continue;
+      signs.look(numbersOf(*block), places.size());
+      if (signs.isOfMill()) return "";
+      places.push_back(statement.origin.range());
+    }
+  const auto sign = signs.sign();
+  return sign ? latheText(sources.line(places[sign->at]), sign->what) : "";
+}
+
+} // namespace
+
 Bytecode compile(const std::vector<const ir::Program*>& programs, const stdlib::Control& control,
-                 const SourceMap& sources) {
+                 const SourceMap& sources, std::size_t made) {
   Compiler compiler(control, sources);
+  compiler.refuseLathe(latheOf(programs, made, sources));
   for (const ir::Program* program : programs)
     compiler.add(*program);
   return compiler.finish();
@@ -203,6 +244,9 @@ void Compiler::operator()(const ir::LoopEnd&) {
 }
 
 void Compiler::operator()(const ir::NcBlock& block) {
+  if (!lathe_.empty())
+    if (const std::string_view meaning = stdlib::meaningOnLathe(numbersOf(block)); !meaning.empty())
+      return refuse(onLatheText(lathe_, meaning));
   words(block, false);
 }
 

@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace dotek::sim {
 
@@ -19,6 +20,8 @@ public:
   Compiler(const Compiler&) = delete;
   Compiler& operator=(const Compiler&) = delete;
   void add(const ir::Program& program);
+  // The programs are for a lathe, as the text says why: blocks that mean something else there are refused.
+  void refuseLathe(std::string why) { lathe_ = std::move(why); }
   Bytecode finish();
 
   // The code of one statement (Compile.cpp).
@@ -80,6 +83,7 @@ private:
   void findLoops();
   void statement(const ir::ProgramStatement& statement);
 
+  std::string lathe_; // "": of a mill
   std::map<double, std::uint32_t> constants_;
   std::uint32_t temporaries_ = 0;
   std::uint32_t line_ = 0;

@@ -31,4 +31,13 @@ inline std::string unlistedText(const std::string& control, const std::string& c
       control, probe ? switches : "", code);
 }
 
+// A program with a sign of a lathe in that line. `what`: what the block of the line does.
+inline std::string latheText(std::uint64_t line, std::string_view what) {
+  return fmt::format("the program is for a lathe: line {} {}", line, what);
+}
+// A block of one. `why`: latheText(); `meaning`: what it does there.
+inline std::string onLatheText(std::string_view why, std::string_view meaning) {
+  return fmt::format("{}; there this {}, and Dotek has no profile of such a control", why, meaning);
+}
+
 } // namespace dotek::sim
