@@ -434,6 +434,24 @@ void gotoTargetMissing(const CheckedProgram& input, Report& report) {
     report.at(range,
               "no block has such a number; the control stops with alarm 128 when it jumps; write that of the "
               "block that is meant");
+  constexpr std::uint32_t kFourDigits = 9999; // what is documented; of longer numbers nobody is certain
+  if (input.control == nullptr || input.control->sequenceLast > kFourDigits) return;
+  std::unordered_set<std::uint64_t> numbers; // above
+  for (const Block& block : input.program.blocks)
+    if (block.sequenceNumber && block.sequenceNumber->value > input.control->sequenceLast)
+      numbers.insert(block.sequenceNumber->value);
+  if (numbers.empty()) return;
+  for (const Block& block : input.program.blocks) {
+    const Goto* jump = gotoOf(block);
+    const auto number = jump == nullptr ? std::nullopt : literal(*jump->target);
+    if (!number || !(*number > input.control->sequenceLast && *number < 1e15) ||
+        !numbers.contains(static_cast<std::uint64_t>(*number)))
+      continue;
+    report.at(jump->target->range,
+              "this control searches block numbers up to {}; it stops with alarm 128 when it jumps; give the "
+              "block a lower number",
+              input.control->sequenceLast);
+  }
 }
 
 namespace {

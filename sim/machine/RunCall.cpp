@@ -16,6 +16,11 @@ namespace dotek::sim {
 
 using stdlib::Alarm;
 
+namespace {
+constexpr std::uint32_t kFourDigits = 9999; // of a block number
+constexpr double kMostSequence = 1e9;
+} // namespace
+
 bool Run::repeatsOf(double value, std::uint32_t& repeats) {
   if (isNull(value)) return true; // the word is left out
   const double whole = std::round(value);
@@ -227,7 +232,17 @@ bool Run::textEnd() {
 bool Run::jumpTo(const Routine& routine, std::uint32_t from, double value) {
   const std::uint64_t number = sequenceNumber(nullAsZero(value), control_);
   const NumberedPlace* const to = number == 0 ? nullptr : code_.search(routine, from, number);
-  if (to == nullptr) return machine_.raise(Alarm::NoSuchSequence);
+  if (to == nullptr) {
+    const double whole = std::round(nullAsZero(value));
+    // That a control searches four digits is documented; where a profile has more, what is above them is not.
+    if (control_.sequenceLast > kFourDigits && whole > control_.sequenceLast && whole < kMostSequence &&
+        code_.search(routine, from, static_cast<std::uint64_t>(whole)) != nullptr)
+      return refuse(fmt::format("whether the control searches block numbers above {} is not known; "
+                                "`[programs] last_sequence` says so in a file that extends it "
+                                "(`dotek new control`)",
+                                control_.sequenceLast));
+    return machine_.raise(Alarm::NoSuchSequence);
+  }
   if (code_.entersLoop(code_.loops[from], to->loop))
     return refuse("a jump into a loop from outside: the control does not know how it was begun");
   place_ = to->place;

@@ -16,7 +16,13 @@ TEST_CASE("run, reference 1.7: GOTO searches forward, then from the top") {
   CHECK(value("#1=7\nGOTO#1\n") == "alarm 128");
   CHECK(value("GOTO7\n") == "alarm 128");
   CHECK(value("#1=0\nGOTO#1\nN0#2=1\n") == "alarm 128");
-  CHECK(value("#1=10000\nGOTO#1\nN10000\n") == "alarm 128"); // beyond what the control searches
+  CHECK(value("GOTO10000\nN10000\n", "fanuc-0i-md") == "alarm 128"); // beyond what the control searches
+  CHECK(value("#1=10000\nGOTO#1\nN10000\n", "fanuc-0i-md") == "alarm 128");
+  CHECK(value("GOTO12345\n#2=1\nN12345\n") == "");
+  CHECK(value("#1=99999\nGOTO#1\n#2=1\nN99999\n") == "");
+  // Of more digits nobody is certain; a block that is not there is none anyway.
+  CHECK(value("GOTO100000\nN100000\n").starts_with("inconclusive: whether the control searches"));
+  CHECK(value("GOTO100000\n") == "alarm 128");
   CHECK(value("GOTO01\n#2=1\nN1\n") == "");
 }
 
