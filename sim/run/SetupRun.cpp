@@ -60,18 +60,18 @@ bool activate(std::uint32_t system, Machine& machine, Diagnostics& diagnostics) 
   return machine.selectSystem({system, false});
 }
 
-std::optional<Position> startOf(const Setup& setup, const Machine& machine) {
+std::optional<Position> startOf(const Setup& setup, const Machine& machine, double probe) {
   if (!setup.at) return std::nullopt;
   Position out = machine.zeroOf(machine.activeSystem().index);
   for (std::size_t i = 0; i < 3; ++i)
     out[i] += (*setup.at)[i];
-  if (setup.tool) out[2] += machine.toolLengthOf(*setup.tool);
+  out[2] += setup.tool ? machine.toolLengthOf(*setup.tool) : probe;
   return out;
 }
 
-bool startsWithinTravel(const Setup& setup, std::string_view saidBy, bool leftOut,
+bool startsWithinTravel(const Setup& setup, double probe, std::string_view saidBy, bool leftOut,
                         const MachineLimits& limits, const Machine& machine, Diagnostics& diagnostics) {
-  const std::optional<Position> start = startOf(setup, machine);
+  const std::optional<Position> start = startOf(setup, machine, probe);
   if (!start) return true;
   const std::uint32_t system = machine.activeSystem().index;
   const std::string name = fmt::format("G{}", 54 + system);

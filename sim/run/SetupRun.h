@@ -25,14 +25,15 @@ bool prepare(const Setup& setup, const std::optional<std::array<double, 3>>& par
 bool activate(std::uint32_t system, Machine& machine, Diagnostics& diagnostics);
 
 // Where the machine is before the program, with the tool's end at `setup.at` of the active system; nothing:
-// the setup does not say.
-std::optional<Position> startOf(const Setup& setup, const Machine& machine);
+// the setup does not say. `probe`: the length of one that has no number, and is in the spindle where the
+// setup names no tool.
+std::optional<Position> startOf(const Setup& setup, const Machine& machine, double probe = 0);
 
 // Whether X, Y and Z are within the machine's travel where `setup.at` puts the tool; one that says nothing
 // is. false: reported as what `saidBy` says ("--at").
 // `leftOut`: the file of the machine says where the zero of that system is, and it does not
 // count.
-bool startsWithinTravel(const Setup& setup, std::string_view saidBy, bool leftOut,
+bool startsWithinTravel(const Setup& setup, double probe, std::string_view saidBy, bool leftOut,
                         const MachineLimits& limits, const Machine& machine, Diagnostics& diagnostics);
 
 // A main program that calls O`number` with the arguments of `setup.call`. Where the setup names a tool its

@@ -2,7 +2,9 @@
 #include "sim/run/SimReport.h"
 #include "sim/run/SimWorld.h"
 #include "support/Decimal.h"
+#include "support/messages/Part.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace dotek::sim {
@@ -37,6 +39,22 @@ void SimWorld::addInputs() {
   for (const auto& [number, value] : options_.variables)
     add("#" + number, value);
   addList(std::move(list));
+}
+
+// A run without a part is as good as one with it where nothing measures; where the zero is then, its numbers
+// do not show.
+void SimWorld::tellZeroLeftOut(const Machine& machine) {
+  if (!machine_ || partZero_) return;
+  std::string names;
+  for (const Setup::Zero& zero : machine_->setup.zeros) {
+    const bool said = std::any_of(setup_.zeros.begin(), setup_.zeros.end(),
+                                  [&](const Setup::Zero& one) { return one.system == zero.system; });
+    if (zero.ofPart && !said && machine.zeroOf(zero.system) == Position{})
+      names += fmt::format("{}G{}", names.empty() ? "" : ", ", 54 + zero.system);
+  }
+  if (!names.empty())
+    session_.diagnostics().report<diag::ZeroLeftOut>({}, options_.machine.value_or("[setup]"), names,
+                                                     names.substr(0, names.find(',')));
 }
 
 } // namespace dotek::sim

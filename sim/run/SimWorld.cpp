@@ -37,6 +37,12 @@ MachineFile bareStylus(double diameter, double length) {
   return out;
 }
 
+// Of what is in the spindle before any T: the probe, unless the file has numbers for it and for other tools.
+double lengthWithoutTool(const std::optional<MachineFile>& machine) {
+  if (!machine || (machine->devices.probeTool && !machine->devices.tools.empty())) return 0;
+  return machine->probe.length;
+}
+
 // [setup] of --job; empty without one. nullopt: reported.
 std::optional<Setup> setupOfJob(Session& session) {
   const std::optional<std::string>& path = session.options().job;
@@ -122,6 +128,9 @@ bool SimWorld::loadFiles(const Setup& given) {
       return zero.ofPart;
     });
   setup_.override(given);
+  if (std::any_of(setup_.zeros.begin(), setup_.zeros.end(),
+                  [&](const Setup::Zero& zero) { return zeroLeftOut_ == zero.system; }))
+    zeroLeftOut_.reset();
   // A macro that is called has its tool in the spindle, and [probe] says which that is.
   if (!setup_.call.empty() && !setup_.tool) setup_.tool = machine_->devices.probeTool;
   if (setup_.length && !setup_.tool) {
@@ -180,14 +189,15 @@ bool SimWorld::prepare(Machine& machine) const {
 }
 
 Position SimWorld::startOf(const Machine& machine) const {
-  if (const auto start = sim::startOf(setup_, machine)) return *start;
+  if (const auto start = sim::startOf(setup_, machine, lengthWithoutTool(machine_))) return *start;
   Position out{};
   if (machine_) std::copy(machine_->start.begin(), machine_->start.end(), out.begin());
   return out;
 }
 
 bool SimWorld::startsWithinTravel(const Machine& machine) const {
-  if (!machine_ || sim::startsWithinTravel(setup_, options_.setup.at ? "--at" : "at` of `[setup]",
+  if (!machine_ || sim::startsWithinTravel(setup_, lengthWithoutTool(machine_),
+                                           options_.setup.at ? "--at" : "at` of `[setup]",
                                            zeroLeftOut_ == machine.activeSystem().index, machine_->limits,
                                            machine, session_.diagnostics()))
     return true;
@@ -203,6 +213,7 @@ void SimWorld::attach(Machine& machine) {
   start_ = startOf(machine);
   startSystem_ = machine.activeSystem().index;
   if (setup_.at || machine_) machine.startAt(start_);
+  tellZeroLeftOut(machine);
   if (!isActive()) {
     // Records and stops are of interest without a part, too.
     if (!machine.dialect().firstParameter && !keepsOffsets_) return;
@@ -439,7 +450,6 @@ void SimWorld::tell(const ProbeEvent& event, const RunPlace& place) {
   const bool atStart = event.outcome == Outcome::EarlyContact && event.kind == MotionKind::Skip;
   if (atStart && last_.hasPlace()) one.all().front().note(last_, "the move before it");
   noteEmptyOffset(one.all().front());
-  if (event.outcome == Outcome::OutsideTravel) noteZeroLeftOut(one.all().front());
   if (event.outcome != Outcome::Miss && event.outcome != Outcome::SetterMiss) noteStart(one.all().front());
   addTold(std::move(one.all().front()), static_cast<std::size_t>(event.outcome), place);
 }

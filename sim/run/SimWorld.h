@@ -224,6 +224,7 @@ private:
   void noteStart(Diagnostic& finding);             // what startText() says, once
   std::string startText() const;
   void noteZeroLeftOut(Diagnostic& finding) const; // of a machine's file, which counts with a part alone
+  void tellZeroLeftOut(const Machine& machine);
   // SimTouch.cpp: touches that measure something else than the program takes them for.
   void checkEdge(const ProbeEvent& event, const RunPlace& place);
   void checkWear(const OffsetWrite& write);
