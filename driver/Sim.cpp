@@ -58,6 +58,16 @@ std::string endingText(const sim::RunEnd& end) {
   }
 }
 
+bool holdsNoBlock(LineChunks& chunks) {
+  frontend::nc::Scanner scanner(chunks);
+  ir::NcWords words;
+  using Result = frontend::nc::Scanner::Result;
+  Result result = Result::Block;
+  while ((result = scanner.next(words)) == Result::Block)
+    if (words.present != 0 || words.marks != ir::NcWords::ProgramMark) return false;
+  return result == Result::End;
+}
+
 class SimCommand {
 public:
   SimCommand(const SimOptions& options, const sim::DeviceOptions& device, Session& session,
@@ -83,6 +93,8 @@ public:
       static_cast<void>(project::loadJob(*options_.common.job, session_)); // its probe codes
     session_.takeProbeCodes(settings.probe);
     if (diagnostics().hasErrors()) return outcomeOf(session_, "");
+    if (options_.probeMacros && session_.macroSet(*options_.probeMacros) == nullptr)
+      reportUnknownMacroSet(*options_.probeMacros, session_);
     control_ = loadControl(control.empty() ? std::string(kFirstControl) : control, session_);
     if (control_) checkProbeCodes(*control_, session_);
     if (diagnostics().hasErrors()) return outcomeOf(session_, "");
@@ -104,6 +116,9 @@ public:
     if (watched_ != nullptr || !options_.programs.empty() || running_ || !world_->setup().call.empty() ||
         frontend::nc::mayHoldMacros(*chunks))
       return runLoaded(kept, machine);
+    chunks->rewind();
+    // What has no block at all is read as a text: it may hold no program.
+    if (holdsNoBlock(*chunks)) return runLoaded(kept, machine);
     chunks->rewind();
     const std::string lathe = latheOf(*chunks);
     chunks->rewind();

@@ -10,6 +10,12 @@
 
 namespace dotek::project {
 
+bool refusesStream(const std::string& path, SourceRange where, Session& session) {
+  if (!isStream(path)) return false;
+  session.diagnostics().report<diag::FileNotReadable>(where, path, "it is no regular file");
+  return true;
+}
+
 void reportNoInput(const std::string& path, const Recognition& found, Session& session) {
   Diagnostics ignored;
   const std::optional<std::string> text =

@@ -16,6 +16,10 @@ namespace dotek::project {
 std::optional<InputKind> kindAmong(const std::string& path, std::initializer_list<InputKind> kinds,
                                    std::string_view expected, Session& session);
 
+// true, reported: a file that no command line names, but an input, is a pipe or a device. Whoever reads it
+// may wait for ever.
+bool refusesStream(const std::string& path, SourceRange where, Session& session);
+
 // Of an input that is none: the one message that says what it is instead.
 void reportNoInput(const std::string& path, const Recognition& found, Session& session);
 

@@ -1,5 +1,6 @@
 #include "project/ProgramLibrary.h"
 
+#include "project/Inputs.h"
 #include "project/Programs.h"
 #include "stdlib/CalledProgram.h"
 #include "support/Files.h"
@@ -37,6 +38,10 @@ std::optional<ProgramLibrary> ProgramLibrary::load(FileId main, const std::vecto
   std::optional<ir::ProgramFile> file = loadPrograms(main, control, session);
   if (!file) return std::nullopt;
   out.add(std::move(*file), true, session);
+  if (out.programs_.empty()) {
+    session.diagnostics().report<diag::NoProgram>({main, 0, 0}, inputName(out.main_), "run");
+    return std::nullopt;
+  }
   if (!out.addFolders(folders, control, session)) return std::nullopt;
   return out;
 }
@@ -83,7 +88,8 @@ bool ProgramLibrary::find(const std::string& folder, Session& session) {
   std::vector<fs::path> paths;
   for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
     std::error_code ignored;
-    if (at->is_regular_file(ignored)) paths.push_back(at->path());
+    const bool named = numberOfName(at->path().filename().string()) != 0;
+    if (at->is_regular_file(ignored) || (named && !at->is_directory(ignored))) paths.push_back(at->path());
   }
   if (error) {
     session.diagnostics().report<diag::FileNotReadable>({}, folder, error.message());
@@ -95,7 +101,8 @@ bool ProgramLibrary::find(const std::string& folder, Session& session) {
     if (fs::equivalent(path, main_, ignored)) continue; // the program that runs
     const std::uint64_t named = numberOfName(path.filename().string());
     Diagnostics unread; // said once the file is called
-    const Recognition* const kind = session.kindOf(path.string(), unread);
+    const bool stream = isStream(path.string());
+    const Recognition* const kind = stream ? nullptr : session.kindOf(path.string(), unread);
     if (kind != nullptr && kind->kind != InputKind::Nc) continue;
     Unread& file = unread_.emplace_back();
     file.path = path.string();
@@ -110,6 +117,7 @@ bool ProgramLibrary::find(const std::string& folder, Session& session) {
 }
 
 bool ProgramLibrary::read(Unread& file, Session& session) {
+  if (refusesStream(file.path, {}, session)) return false;
   const std::optional<FileId> id = session.read(file.path, Encoding::Cp1250);
   if (!id) return false;
   for (LoneProgram& one : lonePrograms(*id, session))

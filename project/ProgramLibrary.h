@@ -24,7 +24,8 @@ public:
   // Of `folders` the NC files, whatever their names, in the order of these; read are the programs that are
   // called, and what these call. An error in one of them is reported, and gives nullopt; one in a program
   // that nothing calls does not matter. Where a call computes its number, and of the codes of the control
-  // that call programs, those that can be read are there, too, and a note names those that cannot.
+  // that call programs, those that can be read are there, too, and a note names those that cannot. A file
+  // without a program is refused, so programs() is never empty.
   static std::optional<ProgramLibrary> load(FileId main, const std::vector<std::string>& folders,
                                             const stdlib::Control& control, Session& session);
   // Text of a main program that calls O`number`.

@@ -73,7 +73,7 @@ void ProgramConversion::convert(const std::string& path, ConversionResult& resul
   std::optional<ir::ProgramFile> programs = loadForTranslation(*id, *source_, session_, leader);
   if (!programs) return;
   if (programs->programs.empty()) {
-    session_.diagnostics().report<diag::NoProgram>({*id, 0, 0}, path);
+    session_.diagnostics().report<diag::NoProgram>({*id, 0, 0}, path, "written");
     return;
   }
   if (leader.begin < leader.end) session_.diagnostics().report<diag::LeaderLeftOut>(leader);

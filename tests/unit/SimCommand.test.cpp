@@ -49,6 +49,31 @@ TEST_CASE("sim command: the trace file is complete or absent") {
   CHECK(files == 0);
 }
 
+TEST_CASE("sim command: a file without a program is refused, whatever runs it") {
+  const DataFolder folder;
+  const std::string device = (root() / "examples/ram-compensation/device.toml").string();
+  for (const char* text : {"", "\n\n", "%\n%\n", "%"}) {
+    CAPTURE(text);
+    folder.write("e.nc", text);
+    for (std::vector<std::string> arguments :
+         std::vector<std::vector<std::string>>{{"flatten", "e.nc"},
+                                               {"sim", "e.nc"},
+                                               {"sim", "e.nc", "--programs", "."},
+                                               {"sim", "e.nc", "--device", device}}) {
+      const CommandResult result = runDotek(arguments, folder.path());
+      CAPTURE(arguments[0]);
+      CHECK(result.status == 1);
+      CHECK(result.err.find("`e.nc` holds no program; nothing can be run [no-program]") != std::string::npos);
+      if (arguments[0] == "flatten") continue;
+      arguments.emplace_back("--json");
+      CHECK(runDotek(arguments, folder.path()).out.find("\"ending\": \"not-run\"") != std::string::npos);
+    }
+  }
+  folder.write("c.nc", "(NOTHING)\n");
+  CHECK(runDotek({"sim", "c.nc"}, folder.path()).status == 0);
+  CHECK(runDotek({"flatten", "c.nc"}, folder.path()).status == 0);
+}
+
 TEST_CASE("sim command: a line that no buffer holds") {
   const DataFolder folder;
   folder.write("long.nc", "G0 X1.\n(" + std::string(300'000, 'x') + ")\nM30\n");
@@ -86,11 +111,9 @@ TEST_CASE("sim command: a pipe is read once") {
   CHECK(result.out == "rapid X7.000000 Y0.000000 Z0.000000\nend\n");
 }
 
-TEST_CASE("sim command: an empty program and binary data") {
+TEST_CASE("sim command: binary data") {
   const DataFolder folder;
-  folder.write("empty.nc", "");
   folder.write("binary.nc", std::string("G0 X1.\n\0\x01\x02", 10));
-  CHECK(runDotek({"sim", "empty.nc"}, folder.path()).status == 0);
   const CommandResult result = runDotek({"sim", "binary.nc", "--quiet"}, folder.path());
   CHECK(result.status == 1);
   CHECK(result.err.find("binary.nc:2:1: error: the file holds a byte 0") != std::string::npos);
