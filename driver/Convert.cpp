@@ -8,6 +8,7 @@
 #include "project/Prog.h"
 #include "project/Programs.h"
 #include "support/NearestName.h"
+#include "support/Printable.h"
 #include "support/messages/Commands.h"
 #include "support/messages/Cycle.h"
 #include "support/messages/Fanuc.h"
@@ -287,7 +288,7 @@ std::string refusedOf(const ConvertOptions& options, const Outcome& outcome) {
   std::string names;
   for (const std::string& input : options.inputs)
     if (std::find(outcome.inputs.begin(), outcome.inputs.end(), input) == outcome.inputs.end())
-      names += (names.empty() ? "`" : ", `") + input + "`";
+      names += (names.empty() ? "`" : ", `") + printable(input) + "`";
   return names.empty() ? ""
                        : fmt::format("{} of {} inputs converted; refused: {}", outcome.inputs.size(),
                                      options.inputs.size(), names);

@@ -24,6 +24,7 @@
 #include "support/Decimal.h"
 #include "support/Files.h"
 #include "support/NearestName.h"
+#include "support/Printable.h"
 #include "support/messages/Commands.h"
 #include "support/messages/Common.h"
 #include "support/messages/Posts.h"
@@ -74,8 +75,10 @@ private:
   }
 
   void folder(const std::string& input) {
-    for (const char* name : {"DefineData.txt", "CycleData.dlg", "CycleData.mac", "ToolPath.mac"})
-      file(cycleFile(input, name).value_or(fs::path(input) / name).generic_string());
+    for (const char* name : {"DefineData.txt", "CycleData.dlg", "CycleData.mac", "ToolPath.mac"}) {
+      const std::string path = cycleFile(input, name).value_or(fs::path(input) / name).generic_string();
+      if (!refusesStream(path, {}, session_)) file(path);
+    }
   }
 
   void file(const std::string& input) {
@@ -328,8 +331,11 @@ private:
 } // namespace
 
 Outcome dump(const DumpOptions& options) {
-  return guarded(options.common, options.inputs,
-                 [&](Session& session) { return DumpCommand(options, session).run(); });
+  Outcome outcome = guarded(options.common, options.inputs,
+                            [&](Session& session) { return DumpCommand(options, session).run(); });
+  // It is read by people: what is in the texts of the inputs steers no terminal.
+  outcome.output = printableLines(outcome.output);
+  return outcome;
 }
 
 } // namespace dotek::driver

@@ -8,6 +8,7 @@
 #include "stdlib/MacroSet.h"
 #include "stdlib/MikroprogControl.h"
 #include "support/NearestName.h"
+#include "support/Printable.h"
 #include "support/messages/Commands.h"
 #include "targets/Target.h"
 
@@ -22,7 +23,7 @@ std::string table(const std::vector<std::pair<std::string, std::string>>& rows) 
     width = std::max(width, row.first.size());
   std::string out;
   for (const auto& [name, text] : rows)
-    out += fmt::format("{:<{}}  {}\n", name, width, text);
+    out += fmt::format("{:<{}}  {}\n", printable(name), width, printable(text));
   return out;
 }
 

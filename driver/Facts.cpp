@@ -6,6 +6,7 @@
 #include "stdlib/ControlFacts.h"
 #include "stdlib/DataFiles.h"
 #include "stdlib/MacroSet.h"
+#include "support/Printable.h"
 #include "support/messages/Commands.h"
 
 #include <algorithm>
@@ -29,8 +30,8 @@ Outcome factsOf(const std::string& name, Session& session) {
   for (const stdlib::ControlFact& fact : facts) {
     const std::string_view joint = fact.key.empty() || fact.text.empty() ? "" : " = ";
     out += fmt::format("{:<{}}  {:<{}}  {:<{}}  {}{}{}{}{}\n", fact.section, section, fact.grade, grade,
-                       fact.file, file, fact.key, joint, fact.text, fact.source.empty() ? "" : "  // ",
-                       fact.source);
+                       fact.file, file, fact.key, joint, printable(fact.text),
+                       fact.source.empty() ? "" : "  // ", printable(fact.source));
   }
   return outcomeOf(session, out);
 }
@@ -122,13 +123,15 @@ Outcome macrosOf(const std::string& name, Session& session) {
 } // namespace
 
 Outcome listFacts(const std::string& what, const std::string& name, const CommonOptions& options) {
-  return guarded(options, [&](Session& session) {
+  Outcome outcome = guarded(options, [&](Session& session) {
     checkSettings({}, session);
     if (what == "controls") return factsOf(name, session);
     if (what == "macros") return macrosOf(name, session);
     session.diagnostics().report<diag::UnknownList>({}, what + " " + name);
     return outcomeOf(session, "");
   });
+  outcome.output = printableLines(outcome.output); // texts of data files
+  return outcome;
 }
 
 } // namespace dotek::driver

@@ -3,6 +3,7 @@
 #include "posts/PostJob.h"
 #include "posts/PostRun.h"
 #include "support/Files.h"
+#include "support/Printable.h"
 #include "support/messages/Commands.h"
 #include "support/messages/Posts.h"
 
@@ -174,7 +175,7 @@ private:
         const bool refusal =
             fault.kind == posts::PostFault::Kind::Refusal || fault.kind == posts::PostFault::Kind::Expand;
         ++(refusal ? refused : failed);
-        out += fmt::format("{}: {}{}\n", refusal ? "refused" : "fails", fault.text,
+        out += fmt::format("{}: {}{}\n", refusal ? "refused" : "fails", printable(fault.text),
                            fault.stack.empty() ? "" : fmt::format(" (line {})", fault.stack.front().line));
         continue;
       }
@@ -182,7 +183,7 @@ private:
       const std::vector<std::string> blocks = blocksOf(result);
       out += fmt::format("{} block{}\n", blocks.size(), blocks.size() == 1 ? "" : "s");
       for (const std::string& block : blocks)
-        out += "    " + block + "\n";
+        out += "    " + printable(block) + "\n";
     }
     out += fmt::format("{} of {} cycles are printed, {} refused, {} fail\n", printed, jobs.size(), refused,
                        failed);

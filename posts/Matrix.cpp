@@ -2,6 +2,7 @@
 #include "posts/PostJob.h"
 #include "posts/PostRun.h"
 #include "stdlib/Toml.h"
+#include "support/Printable.h"
 
 #include <algorithm>
 #include <array>
@@ -138,13 +139,14 @@ bool namesProbing(std::string_view text) {
 
 std::string newPostJob(const std::string& post, const std::vector<PostProperty>& properties, bool probes) {
   std::string out =
-      "# What `dotek run-post` hands to " + post +
+      "# What `dotek run-post` hands to " + printable(post) +
       "\nschema = 1\nunit = \"mm\"\n\n[program]\nname = "
       "\"1001\"\ncomment = \"\"\n\n# The post's own properties, with their values.\n[properties]\n";
   for (const PostProperty& one : properties) {
     const bool plain = !one.value.empty() && one.value.front() != '{' && one.value.front() != '[' &&
                        one.value != "null" && one.value != "undefined";
-    if (!one.title.empty()) out += "# " + one.title + (one.choices.empty() ? "" : ": " + one.choices) + "\n";
+    if (!one.title.empty())
+      out += "# " + printable(one.title + (one.choices.empty() ? "" : ": " + one.choices)) + "\n";
     out += (plain ? "" : "# ") + jsonText(one.name) + " = " + one.value + "\n";
   }
   out += "\n# One operation after the other; the steps of an operation in their order.\n";

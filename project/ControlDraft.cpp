@@ -1,5 +1,7 @@
 #include "project/ControlDraft.h"
 
+#include "support/Printable.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <vector>
@@ -28,7 +30,7 @@ std::string draftControl(const std::string& name, const stdlib::Control& base,
                   "schema = 1\n"
                   "title = \"{}\"\n"
                   "extends = \"{}\"\n\n",
-                  name, base.name, name, base.name);
+                  name, printable(base.name), name, printable(base.name));
   std::vector<std::string> codes;
   if (!probe.on.empty()) codes.push_back(code(probe.on, true));
   if (!probe.off.empty()) codes.push_back(code(probe.off, false));

@@ -3,6 +3,7 @@
 
 #include "frontend/cycle/Link.h"
 #include "frontend/cycle/Parse.h"
+#include "support/Printable.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -156,7 +157,7 @@ std::string markdown(const CyclePage& page) {
     calls.push_back(isElsewhere(page, name) ? fmt::format("`{}` (no page here)", name)
                                             : fmt::format("[{}]({}.md)", name, fileStem(name)));
   list(out, "Calls", calls);
-  return out;
+  return printableLines(out);
 }
 
 std::string markdownIndex(const std::vector<CyclePage>& pages) {
@@ -173,7 +174,7 @@ std::string markdownIndex(const std::vector<CyclePage>& pages) {
   part("", [](const CyclePage& page) { return !page.options && !page.helper; });
   part("## Parts of other cycles\n\n", [](const CyclePage& page) { return !page.options && page.helper; });
   part("## Options that cycles share\n\n", [](const CyclePage& page) { return page.options; });
-  return out;
+  return printableLines(out);
 }
 
 // ---- HTML ------------------------------------------------------------------------------------------------

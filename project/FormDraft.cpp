@@ -1,6 +1,7 @@
 #include "project/FormDraft.h"
 
 #include "frontend/compost/Summary.h"
+#include "support/Printable.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -89,7 +90,7 @@ private:
 
   std::string place(const compost::Word& word) const {
     const SourceFile& file = sources_.file(word.nameRange.file);
-    return fmt::format("{}:{}", file.name(), sources_.line(word.nameRange));
+    return fmt::format("{}:{}", printable(file.name()), sources_.line(word.nameRange));
   }
 
   template <class Entry>
@@ -180,7 +181,7 @@ private:
 
 std::string draftForm(const std::string& name, const compost::Program& program, const SourceMap& sources,
                       const stdlib::ComPostKeywords& keywords, const std::vector<stdlib::Form>& known) {
-  const std::string& prog = sources.file(program.file).name();
+  const std::string prog = printable(sources.file(program.file).name());
   return fmt::format(
              "# What the Form of the post {1} decides. Save as DIR/forms/{0}.toml; `--data DIR --form "
              "{0}` reads it.\n"

@@ -1,6 +1,7 @@
 #include "project/InputWalk.h"
 
 #include "support/Files.h"
+#include "support/Printable.h"
 #include "support/messages/Commands.h"
 #include "support/messages/Common.h"
 
@@ -109,7 +110,7 @@ std::string walkSummary(std::size_t checked, std::size_t excluded, const std::ve
         std::find_if(reasons.begin(), reasons.end(), [&](const auto& r) { return r.first == one.reason; });
     if (at == reasons.end()) at = reasons.insert(at, {one.reason, {}});
     const bool inside = !folder.empty() && one.path.starts_with(folder + "/");
-    at->second.push_back(inside ? one.path.substr(folder.size() + 1) : one.path);
+    at->second.push_back(printable(inside ? one.path.substr(folder.size() + 1) : one.path));
   }
   std::string list;
   bool cut = false;

@@ -63,6 +63,25 @@ std::string printable(std::string_view bytes) {
   });
 }
 
+std::string printableLines(std::string_view bytes) {
+  const auto plain = [](char c) { return (c >= 0x20 && c < 0x7F) || c == '\n' || c == '\t'; };
+  if (std::all_of(bytes.begin(), bytes.end(), plain)) return std::string(bytes);
+  std::string out;
+  out.reserve(bytes.size());
+  while (!bytes.empty()) {
+    const std::size_t end = bytes.find_first_of("\n\t");
+    std::string_view line = bytes.substr(0, end);
+    const bool both = end != std::string_view::npos && bytes[end] == '\n' && line.ends_with('\r');
+    if (both) line.remove_suffix(1);
+    out += printable(line);
+    if (both) out += '\r';
+    if (end == std::string_view::npos) break;
+    out += bytes[end];
+    bytes.remove_prefix(end + 1);
+  }
+  return out;
+}
+
 std::string asUtf8(std::string_view bytes) {
   if (isUtf8(bytes)) return std::string(bytes);
   return mapped(bytes, [](std::string& out, const Letter& letter, std::string_view text) {

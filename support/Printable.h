@@ -10,6 +10,9 @@ namespace dotek {
 // blank), C1, marks of direction, line and paragraph separators, and bytes that are no UTF-8.
 std::string printable(std::string_view bytes);
 
+// The same of a text of several lines, which keep their ends and their tabs.
+std::string printableLines(std::string_view bytes);
+
 // As UTF-8 without loss: a byte that is none of it becomes `\xHH`.
 std::string asUtf8(std::string_view bytes);
 

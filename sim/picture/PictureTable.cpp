@@ -3,6 +3,7 @@
 #include "sim/picture/PictureReport.h"
 #include "sim/picture/PictureText.h"
 #include "support/Decimal.h"
+#include "support/Printable.h"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -67,11 +68,11 @@ std::string measuredText(const std::vector<PictureMeasured>& measured, std::size
   std::string out = control.empty() ? "" : "run on " + control + "\n";
   out += fmt::format("{:<30} {:>12} {:>12} {:>12}\n", "measured, mm", "nominal", "measured", "deviation");
   for (const PictureMeasured& one : measured) {
-    out += fmt::format("{} ({})\n", Table::title(one), Table::place(one));
+    out += fmt::format("{} ({})\n", printable(Table::title(one)), printable(Table::place(one)));
     for (const MeasuredValue& value : one.found.values) {
       const Row row = table.row(value);
-      out +=
-          fmt::format("  {:<28} {:>12} {:>12} {:>12}\n", row.name, row.nominal, row.measured, row.deviation);
+      out += fmt::format("  {:<28} {:>12} {:>12} {:>12}\n", printable(row.name), row.nominal, row.measured,
+                         row.deviation);
     }
     for (const OffsetWrite& write : one.offsets)
       out += "  " + table.offset(write, one) + "\n";
