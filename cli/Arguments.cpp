@@ -2,10 +2,10 @@
 
 #include "cli/Build.h"
 #include "cli/Cli.h"
+#include "cli/Documents.h"
 #include "cli/Help.h"
 #include "cli/Options.h"
 #include "project/Assumptions.h"
-#include "sim/run/SimReport.h"
 #include "support/FileIdentity.h"
 #include "support/NearestName.h"
 #include "support/Printable.h"
@@ -36,7 +36,7 @@ void fill(const Raw& raw, Arguments& parsed) {
   parsed.sim = simOf(raw);
   parsed.device = deviceOf(raw);
   parsed.renumber = renumberOf(raw);
-  parsed.outputFolder = raw.outputFolder;
+  if (raw.outputFolder != "-") parsed.outputFolder = raw.outputFolder; // else standard output
   parsed.mapFile = raw.mapFile;
   parsed.helpersFile = raw.helpersFile;
   parsed.reportFile = raw.report;
@@ -50,7 +50,8 @@ void fill(const Raw& raw, Arguments& parsed) {
   }
   parsed.maxErrors = raw.maxErrors;
   if (!raw.sequence.empty()) parsed.sequence = startAndStep("--seq", raw.sequence);
-  parsed.json = raw.format == "json" || raw.json;
+  parsed.json = raw.json;
+  parsed.format = raw.format;
   parsed.quiet = raw.quiet;
   parsed.color = raw.color == "always"  ? ColorMode::Always
                  : raw.color == "never" ? ColorMode::Never
@@ -62,13 +63,10 @@ void fill(const Raw& raw, Arguments& parsed) {
   parsed.traceFile = raw.traceFile;
   parsed.svgFile = raw.svgFile;
   parsed.htmlFile = raw.htmlFile;
-  parsed.sarif = raw.format == "sarif";
-  parsed.github = raw.format == "github";
-  parsed.gitlab = raw.format == "gitlab";
-  parsed.html = raw.format == "html";
   parsed.watch = raw.watch;
   parsed.statistics = raw.statistics;
   parsed.baselineFile = raw.writeBaseline;
+  if (parsed.command == Command::Dump) checkDump(raw);
   parsed.stage = raw.stage == "tokens" ? driver::Stage::Tokens
                  : raw.stage == "path" ? driver::Stage::Path
                  : raw.stage == "ir"   ? driver::Stage::Ir
@@ -217,23 +215,19 @@ std::vector<std::string> spreadPairs(const std::vector<std::string>& arguments) 
 int refuse(const std::vector<std::string>& arguments, const std::string& text, std::ostream& out,
            std::ostream& err) {
   err << "dotek: error: " << printable(text) << "\n";
-  const auto given = [&](std::string_view flag, std::string_view value = "") {
-    for (std::size_t i = 0; i < arguments.size(); ++i) {
-      if (value.empty() ? arguments[i] == flag
-                        : arguments[i] == fmt::format("{}={}", flag, value) ||
-                              (arguments[i] == flag && i + 1 < arguments.size() && arguments[i + 1] == value))
-        return true;
-    }
-    return false;
-  };
+  std::string format = "text";
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    constexpr std::string_view kFormat = "--format";
+    if (arguments[i] == kFormat && i + 1 < arguments.size())
+      format = arguments[i + 1];
+    else if (arguments[i].starts_with(fmt::format("{}=", kFormat)))
+      format = arguments[i].substr(kFormat.size() + 1);
+  }
+  const bool json = std::find(arguments.begin(), arguments.end(), "--json") != arguments.end();
   driver::Outcome outcome;
+  outcome.status = kUsage;
   outcome.diagnostics.report<diag::CommandLine>({}, text);
-  if (given("--json"))
-    out << sim::notRunSummary(outcome.diagnostics, outcome.sources);
-  else if (given("--format", "json"))
-    out << renderJson(outcome.diagnostics, outcome.sources);
-  else if (given("--format", "sarif"))
-    out << driver::sarif(outcome);
+  if (!arguments.empty()) out << notRunDocument(arguments.front(), json, format, outcome);
   return kUsage;
 }
 
@@ -271,6 +265,12 @@ std::string mistakeOf(const CLI::ParseError& error, const CLI::App& app,
 }
 
 } // namespace
+
+std::string_view commandName(Command command) {
+  const auto at = std::find_if(std::begin(kCommands), std::end(kCommands),
+                               [&](const CommandFlags& one) { return one.command == command; });
+  return at == std::end(kCommands) ? "" : at->name;
+}
 
 std::optional<int> parseArguments(const std::vector<std::string>& arguments, Arguments& parsed,
                                   std::ostream& out, std::ostream& err) {

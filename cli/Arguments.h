@@ -47,10 +47,10 @@ struct Arguments {
   driver::CommonOptions common;
   driver::SourceOptions source;
   std::optional<std::pair<std::uint64_t, std::uint64_t>> sequence;
-  std::string output;            // -o
-  std::string standardInputName; // --stdin-filename
-  bool json = false;
-  bool sarif = false, github = false, gitlab = false, html = false;
+  std::string output;             // -o
+  std::string standardInputName;  // --stdin-filename
+  bool json = false;              // of sim and outline: --json
+  std::string format = "text";    // of lint and check
   bool watch = false;             // of lint
   bool statistics = false;        // of lint: --statistics
   std::string baselineFile;       // of lint: --write-baseline
@@ -75,6 +75,9 @@ struct Arguments {
   driver::RenumberCommandOptions renumber; // inputs and common aside
   std::uint32_t maxErrors = 50;
 };
+
+// As it is typed: "lint"; of `new job` and the like "".
+std::string_view commandName(Command command);
 
 // Fills `parsed`. A status where nothing is left to do: help, version, or wrong arguments.
 std::optional<int> parseArguments(const std::vector<std::string>& arguments, Arguments& parsed,

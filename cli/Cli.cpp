@@ -2,9 +2,9 @@
 
 #include "cli/Arguments.h"
 #include "cli/Diff.h"
+#include "cli/Documents.h"
 #include "cli/Files.h"
 #include "cli/Findings.h"
-#include "cli/FindingsPage.h"
 #include "cli/StandardInput.h"
 #include "cli/Watch.h"
 #include "driver/Driver.h"
@@ -16,7 +16,6 @@
 #include "project/CycleFolder.h"
 #include "project/Settings.h"
 #include "sim/run/SimReport.h"
-#include "support/CodeHosts.h"
 #include "support/FileIdentity.h"
 #include "support/Output.h"
 #include "support/OutputCheck.h"
@@ -75,18 +74,15 @@ public:
   // Before anything is done.
   bool canWrite(const Arguments& arguments) {
     Diagnostics found;
-    const bool good = checkOutputs(outputsOf(arguments), inputsOf(arguments), arguments.force, found);
-    err_ << renderText(found, SourceMap(), maxErrors_, errColors_);
-    if (!good && arguments.command == Command::Sim && arguments.json)
-      out_ << sim::notRunSummary(found, SourceMap());
-    return good;
+    const bool good = checkOutputs(outputsOf(arguments), inputsOf(arguments), arguments.force, found) &&
+                      canChangeInputs(arguments, found);
+    return begins(good, std::move(found), arguments);
   }
 
   bool canRead(Arguments& arguments) {
     Diagnostics found;
     const bool good = takeStandardInput(arguments, found);
-    err_ << renderText(found, SourceMap(), maxErrors_, errColors_);
-    return good;
+    return begins(good, std::move(found), arguments);
   }
 
   // Results to standard output or `-o`, diagnostics to standard error.
@@ -214,8 +210,10 @@ public:
     const driver::Outcome outcome = driver::verify(options);
     err_ << renderText(outcome.diagnostics, outcome.sources, maxErrors_, errColors_);
     if (outcome.status == kUsage) return kUsage;
-    if (options.format != targets::ReportFormat::Text && outcome.files.empty()) return outcome.status;
-    const std::string& report = outcome.files.empty() ? outcome.output : outcome.files.front().text;
+    // Nothing ran: an old report stays what it is, and so does a file of the source that nobody has read.
+    const bool text = options.format == targets::ReportFormat::Text;
+    if (text ? outcome.output.empty() : outcome.files.empty()) return outcome.status;
+    const std::string& report = text ? outcome.output : outcome.files.front().text;
     if (!arguments.output.empty() && !outcome.files.empty()) out_ << outcome.output;
     return write({{orStandardOutput(arguments.output), &report}}, outcome, arguments) ? outcome.status
                                                                                       : kUsage;
@@ -224,12 +222,9 @@ public:
   // Findings are the result.
   int findings(const driver::Outcome& outcome, const Arguments& arguments) {
     out_ << (arguments.statistics ? statisticsOf(outcome.diagnostics)
-             : arguments.sarif    ? driver::sarif(outcome)
-             : arguments.json     ? renderJson(outcome.diagnostics, outcome.sources)
-             : arguments.github   ? renderGithub(outcome.diagnostics, outcome.sources)
-             : arguments.gitlab   ? renderGitlab(outcome.diagnostics, outcome.sources)
-             : arguments.html     ? findingsPage(outcome.diagnostics, outcome.sources, outcome.summary)
-                                  : renderText(outcome.diagnostics, outcome.sources, maxErrors_, outColors_));
+             : arguments.format != "text"
+                 ? findingsDocument(arguments.format, outcome)
+                 : renderText(outcome.diagnostics, outcome.sources, maxErrors_, outColors_));
     if (!arguments.quiet && !outcome.summary.empty()) err_ << outcome.summary << "\n";
     if (const std::string line = closingLine(outcome.diagnostics);
         !line.empty() && !arguments.quiet && isatty(STDERR_FILENO) == 1)
@@ -284,6 +279,17 @@ public:
   }
 
 private:
+  // false: the command is not run; a document that is asked for says so.
+  bool begins(bool good, Diagnostics found, const Arguments& arguments) {
+    err_ << renderText(found, SourceMap(), maxErrors_, errColors_);
+    if (good) return true;
+    driver::Outcome refused;
+    refused.status = kUsage;
+    refused.diagnostics = std::move(found);
+    out_ << notRunDocument(commandName(arguments.command), arguments.json, arguments.format, refused);
+    return false;
+  }
+
   bool write(const std::vector<NamedText>& texts, const driver::Outcome& outcome,
              const Arguments& arguments) {
     Diagnostics writing;

@@ -1,5 +1,9 @@
 #include "cli/Files.h"
 
+#include "support/Files.h"
+#include "support/messages/Common.h"
+#include "support/messages/Output.h"
+
 #include <filesystem>
 
 namespace dotek::cli {
@@ -49,6 +53,19 @@ std::vector<OutputName> outputsOf(const Arguments& arguments) {
   add("--svg", arguments.svgFile);
   add("--html", arguments.htmlFile);
   return out;
+}
+
+bool canChangeInputs(const Arguments& arguments, Diagnostics& diagnostics) {
+  const bool renumbers = arguments.command == Command::Renumber && arguments.output.empty();
+  if (!renumbers && !(arguments.command == Command::Fmt && arguments.write)) return true;
+  bool good = true;
+  for (const std::string& input : arguments.inputs) {
+    if (input == "-" || !isStream(input)) continue;
+    diagnostics.report<diag::FileNotWritable>(
+        {}, input, "it is no regular file, whose text could be replaced; `-o OUT` writes to another file");
+    good = false;
+  }
+  return good;
 }
 
 std::vector<std::string> inputsOf(const Arguments& arguments) {

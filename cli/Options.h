@@ -145,6 +145,7 @@ void addList(CLI::App& app, Raw& raw);
 driver::ConvertOptions convertOf(const Raw& raw);
 driver::LintOptions lintOf(const Raw& raw);
 driver::RunPostOptions runPostOf(const Raw& raw);
+void checkDump(const Raw& raw); // throws UsageError
 driver::SimOptions simOf(const Raw& raw);
 sim::DeviceOptions deviceOf(const Raw& raw);
 driver::VerifyOptions verifyOf(const Raw& raw);

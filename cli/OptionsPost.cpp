@@ -29,4 +29,31 @@ void addDump(CLI::App& app, Raw& raw) {
   addCommon(*dump, raw);
 }
 
+// What a stage does not read may name anything, and nothing would say that it is wrong.
+void checkDump(const Raw& raw) {
+  if (raw.stage == "ir") return;
+  const bool values = raw.stage != "path";
+  const std::pair<const char*, bool> unread[] = {
+      {"--control", !raw.control.empty()},
+      {"--prog", !raw.prog.empty()},
+      {"--form", !raw.form.empty()},
+      {"--routine", !raw.routine.empty()},
+      {"--cycle", !raw.cycle.empty()},
+      {"--job", !raw.job.empty()},
+      {"--field", !raw.field.empty()},
+      {"--recover", raw.recover},
+      {"--set", values && !raw.set.empty()},
+      {"--host", values && !raw.host.empty()},
+      {"--clearance", values && !raw.clearance.empty()},
+      {"--assume", values && !raw.assume.empty()},
+  };
+  for (std::size_t i = 0; const auto& [flag, given] : unread) {
+    constexpr std::size_t kOfIr = 8; // the first of them
+    const bool ofIr = i++ < kOfIr;
+    if (given)
+      throw UsageError(std::string(flag) + " changes nothing of --stage " + raw.stage + "; it is read by " +
+                       (ofIr ? "--stage ir" : "--stage path and --stage ir"));
+  }
+}
+
 } // namespace dotek::cli

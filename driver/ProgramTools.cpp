@@ -128,7 +128,7 @@ private:
 } // namespace
 
 Outcome outline(const OutlineOptions& options) {
-  return guarded(options.common, [&](Session& session) {
+  Outcome outcome = guarded(options.common, [&](Session& session) {
     std::string out;
     if (hasInputs(options.inputs, "outline", session))
       for (const std::string& path : options.inputs) {
@@ -145,6 +145,8 @@ Outcome outline(const OutlineOptions& options) {
     if (options.json) out = "[\n" + out + (out.empty() ? "]\n" : "\n]\n");
     return outcomeOf(session, std::move(out), true);
   });
+  if (options.json && outcome.output.empty()) outcome.output = kEmptyOutline;
+  return outcome;
 }
 
 Outcome renumber(const RenumberCommandOptions& options) {

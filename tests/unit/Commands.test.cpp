@@ -1,8 +1,10 @@
 // What cannot appear in a golden case: results in files, and inputs too large to keep.
 #include "DataFolder.h"
 #include "tests/GoldenRunner.h"
+#include "tests/Process.h"
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 #include <string>
 #include <vector>
 
@@ -163,4 +165,37 @@ TEST_CASE("commands: formats for code hosts name files of `.` without the ./") {
     CHECK(result.out.find("sub/O0001.nc") != std::string::npos);
     CHECK(result.out.find("./sub") == std::string::npos);
   }
+}
+
+TEST_CASE("a flag that a command does not read is refused") {
+  const ProcessFolder folder;
+  const std::string root = "'" + dotek::tests::root().string() + "/examples/";
+  folder.run("cp -r " + root + "surface-x' sx; ln -s self.nc self.nc");
+  folder.write("p.nc", "%\nO1\nG90 G0 X1.\nM30\n%\n");
+  for (const char* flag : {"--control self.nc", "--prog self.nc", "--job self.nc", "--set X=p.nc",
+                           "--clearance nan", "--form p.nc", "--host a=1", "--assume probe-on", "--cycle x",
+                           "--routine x", "--recover", "--field a=b"})
+    for (const char* stage : {"", "--stage tokens "}) {
+      const ShellResult result = folder.run(fmt::format("dotek dump sx {}{}", stage, flag));
+      CHECK_MESSAGE(result.status == 2, flag);
+      CHECK_MESSAGE(result.err.find("changes nothing of --stage") != std::string::npos, result.err);
+    }
+  CHECK(folder.run("dotek dump sx --stage path --prog p.nc").status == 2);
+  CHECK(folder.run("dotek dump sx --stage path --set X=2").err.find("changes nothing") == std::string::npos);
+  const ShellResult macros = folder.run("dotek sim p.nc --probe-macros p.nc");
+  CHECK(macros.status == 2);
+  CHECK(macros.err.find("[unknown-macro-set]") != std::string::npos);
+}
+
+TEST_CASE("`-` is standard output for a folder of results, too") {
+  const ProcessFolder folder;
+  folder.write("p.nc", "%\nO1\nG90 G0 X1.\nM30\n%\n");
+  folder.write("spare.cycle", "cycle spare \"Spare\"\nspindle off\n");
+  const std::string before = folder.names();
+  const ShellResult both =
+      folder.run("dotek doc spare.cycle > a; dotek doc -o - spare.cycle > b; cmp a b && test -s a "
+                 "&& dotek convert p.nc --to fanuc > a; dotek convert p.nc --to fanuc -d - > b; "
+                 "cmp a b && test -s a; s=$?; rm a b; exit $s");
+  CHECK_MESSAGE(both.status == 0, both.out << both.err);
+  CHECK(folder.names() == before);
 }

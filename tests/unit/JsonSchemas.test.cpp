@@ -210,6 +210,40 @@ TEST_CASE("a wrong command line of lint is a finding of its document") {
   CHECK_MESSAGE(checked.status == 0, checked.out << checked.err);
 }
 
+TEST_CASE("each command that is asked for a document prints its own, also where it does not run") {
+  const ProcessFolder folder;
+  if (!haveSchemas(folder)) return;
+  folder.write("p.nc", "%\nO1\nM30\n%\n");
+  int count = 0;
+  for (const char* rest : {"--encoding x", "--nosuch", "--control x", "--data nosuch", "--limit x", "-o p.nc",
+                           "- --stdin-filename x.nc <&-"}) {
+    const ShellResult outline = folder.run(fmt::format("dotek outline --json p.nc {}", rest));
+    CHECK_MESSAGE(outline.status == 2, rest << outline.err);
+    folder.write(fmt::format("{}.outline.json", ++count), outline.out);
+    const ShellResult sim = folder.run(fmt::format("dotek sim --json p.nc {}", rest));
+    if (sim.status == 2) folder.write(fmt::format("{}.sim.json", ++count), sim.out);
+    for (const char* format : {"json", "sarif", "gitlab"}) {
+      const ShellResult lint = folder.run(fmt::format("dotek lint --format {} p.nc {}", format, rest));
+      folder.write(
+          fmt::format("{}.{}.json", ++count, std::string_view(format) == "json" ? "findings" : format),
+          lint.out);
+    }
+  }
+  for (const char* rest : {"p.nc --statistics", "p.nc --write-baseline p.nc"})
+    for (const char* format : {"json", "sarif", "gitlab"}) {
+      const ShellResult lint = folder.run(fmt::format("dotek lint --format {} {}", format, rest));
+      CHECK_MESSAGE(lint.status == 2, rest << lint.err);
+      folder.write(
+          fmt::format("{}.{}.json", ++count, std::string_view(format) == "json" ? "findings" : format),
+          lint.out);
+    }
+  // Another command has no document.
+  for (const char* command : {"fmt --json p.nc", "renumber --format json p.nc", "sim --format json p.nc"})
+    CHECK(folder.run(fmt::format("dotek {}", command)).out.empty());
+  const ShellResult checked = check(folder);
+  CHECK_MESSAGE(checked.status == 0, checked.out << checked.err);
+}
+
 TEST_CASE("what the system refuses is a message and no defect of Dotek") {
   const ProcessFolder folder;
   folder.write("p.nc", "%\nO1\nG90 G0 X1.\nM30\n%\n");

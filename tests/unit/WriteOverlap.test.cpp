@@ -103,6 +103,34 @@ TEST_CASE("no result is written over an input, whatever its name") {
   CHECK(folder.run("sha256sum $(find . -type f | sort)").out == before.out);
 }
 
+TEST_CASE("a report of verify is written where cases ran, and nothing is where none did") {
+  const ProcessFolder folder;
+  const std::string root = "'" + dotek::tests::root().string() + "/examples/";
+  folder.run("cp -r " + root + "surface-x' .; cp " + root + "'post.txt .; ln -s surface-x/ToolPath.mac soft");
+  folder.write("bad.toml", "x\n");
+  folder.write("rep", "old\n");
+  folder.write("rep.html", "old\n");
+  folder.write("p.nc", kProgram);
+  const ShellResult before = folder.run("sha256sum $(find . -type f | sort)");
+  const std::string verify = "dotek verify surface-x --prog post.txt --form thesis-a --to fanuc --cases 2 ";
+  for (const std::string& early :
+       {verify + "--job bad.toml", verify + "--part bad.toml", verify + "--machine bad.toml",
+        verify + "--routine nosuch", verify + "--translation nosuch", verify + "--limit steps=1",
+        std::string("dotek verify p.nc --to fanuc --cases 2 --part bad.toml")})
+    for (const char* output :
+         {"surface-x/ToolPath.mac", "./surface-x/../surface-x/ToolPath.mac", "soft", "rep", "rep.html"}) {
+      const ShellResult result = folder.run(early + " -o " + output);
+      CHECK_MESSAGE(result.status > 0, early << result.out);
+      CHECK_MESSAGE(folder.run("sha256sum $(find . -type f | sort)").out == before.out,
+                    early << " -o " << output << "\n"
+                          << result.err);
+    }
+  folder.write("dotek.toml", "x\n");
+  CHECK(folder.run(verify + "-o surface-x/ToolPath.mac").status > 0);
+  folder.run("rm dotek.toml");
+  CHECK(folder.run("sha256sum $(find . -type f | sort)").out == before.out);
+}
+
 TEST_CASE("a data file of --data is an input of the command that writes a new one") {
   const ProcessFolder folder;
   folder.write("post.txt", "progStart:\n SeqC SpinOff EOL\nRETURN\n");
