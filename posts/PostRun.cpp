@@ -4,6 +4,7 @@
 #include "frontend/fusion/Parse.h"
 #include "posts/Json.h"
 #include "posts/KernelFiles.h"
+#include "project/Inputs.h"
 #include "stdlib/FusionNames.h"
 #include "stdlib/Toml.h"
 #include "support/NearestName.h"
@@ -171,6 +172,7 @@ bool PostRunner::include(const std::string& path, std::map<std::string, std::str
       session_.diagnostics().report<diag::IncludeTooDeep>(tree.range(node), session_.limits().includeDepth);
       return false;
     }
+    if (project::refusesStream(other, tree.range(node), session_)) return false;
     const std::optional<FileId> read = session_.read(other, Encoding::Cp1250);
     if (!read) return false;
     std::optional<std::string> one = lowered(*read);

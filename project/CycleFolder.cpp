@@ -1,4 +1,5 @@
 #include "project/CycleFolder.h"
+#include "project/Inputs.h"
 #include "support/Files.h"
 #include "support/messages/Commands.h"
 #include "support/messages/Common.h"
@@ -330,10 +331,7 @@ CycleFolder loadCycleFolder(const std::string& path, Session& session, bool chec
       folder.complete = false;
       continue;
     }
-    if (isStream(file->string())) // a FIFO would block, and nobody named it
-      session.diagnostics().report<diag::FileNotReadable>({}, file->generic_string(),
-                                                          "it is no regular file");
-    else
+    if (!refusesStream(file->generic_string(), {}, session))
       ids[i] = session.read(file->generic_string(), Encoding::Cp1250);
     if (!ids[i]) folder.complete = false;
   }

@@ -128,13 +128,18 @@ std::optional<std::string> Session::bytes(const std::string& path, Diagnostics& 
 
 const Recognition* Session::kindOf(const std::string& path, Diagnostics& diagnostics,
                                    std::optional<InputKind> expected) {
-  if (const auto known = kinds_.find(path); known != kinds_.end()) return &known->second;
+  if (const auto told = kinds_.find(path); told != kinds_.end()) return &told->second;
   if (options_.from)
     return &kinds_.emplace(path, Recognition{kindByName(*options_.from), "--from"}).first->second;
   const bool stream = isStream(path);
-  const bool whole = stream || buffer(path) != nullptr;
-  std::optional<std::string> text =
-      whole ? bytes(path, diagnostics) : readBeginning(path, kRecognisedBytes, diagnostics);
+  const auto before = stream ? read_.end() : read_.find(path); // included by another input
+  const bool known = before != read_.end() && before->second;
+  const bool whole = stream || known || buffer(path) != nullptr;
+  std::optional<std::string> text;
+  if (known)
+    text = sources_.file(*before->second).bytes().substr(0, kRecognisedBytes);
+  else
+    text = whole ? bytes(path, diagnostics) : readBeginning(path, kRecognisedBytes, diagnostics);
   if (!text) return nullptr;
   blankTape(*text);
   Recognition found = recognise(stream ? "" : path, *text, expected);

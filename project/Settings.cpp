@@ -4,6 +4,7 @@
 #include "project/SettingsPlace.h"
 #include "stdlib/ControlFiles.h"
 #include "stdlib/Toml.h"
+#include "support/Files.h"
 #include "support/Glob.h"
 #include "support/NearestName.h"
 #include "support/messages/Commands.h"
@@ -140,7 +141,9 @@ SettingsFile settingsIn(const TomlDocument& document, std::string folder, Sessio
   base.probe = probeCodesIn(document, root);
   // Taken before anything is read: flagDefaultsOf().
   static_cast<void>(root.value("data").texts());
-  static_cast<void>(root.value("prog").text());
+  if (const TomlValue prog = root.value("prog"); prog && !prog.text().empty())
+    if (isStream((fs::path(out.folder) / prog.text()).generic_string()))
+      document.fail(prog.range(), "`" + prog.text() + "` is no regular file");
   for (const TomlEntry& entry : root.value("field").table().entries())
     static_cast<void>(entry.value.text());
   if (const TomlValue from = root.value("from"))

@@ -108,13 +108,23 @@ bool ReadBounds::allow(const std::string& path) const {
 
 std::string ReadBounds::text() const {
   std::string out;
-  for (const std::string& folder : folders)
+  std::vector<std::string> told;
+  for (const std::string& folder : folders) {
+    std::string real = realPath(folder);
+    if (std::find(told.begin(), told.end(), real) != told.end()) continue;
+    told.push_back(std::move(real));
     out += (out.empty() ? "`" : " or `") + (folder.empty() ? "." : folder) + "`";
+  }
   return out;
 }
 
+// Of a link the folder of the file that it leads to.
 std::string folderName(const std::string& path) {
-  const std::string out = fs::path(path).parent_path().generic_string();
+  const fs::path folder = fs::path(path).parent_path(), real = fs::path(realPath(path)).parent_path();
+  std::error_code error;
+  const bool leads = real != fs::path(realPath(folder.generic_string()));
+  const fs::path seen = leads ? fs::proximate(real, error) : folder;
+  const std::string out = (error ? real : seen).generic_string();
   return out.empty() ? "." : out;
 }
 

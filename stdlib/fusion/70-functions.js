@@ -511,7 +511,18 @@ give({
     if (text === undefined) {
       throw sourceError("include: `" + name + "` was not read; a post includes files by a text in quotes");
     }
-    (0, eval)(text);
+    // A file may include one that includes it, once; only its depth tells that there is no end.
+    var open = state.including = state.including || [];
+    if (open.length >= 24) {
+      throw sourceError("include: `" + name + "` is nested " + (open.length + 1) + " deep: .., " +
+                        open.slice(-4).join(", ") + "; a file that includes itself has no end");
+    }
+    open.push(String(name));
+    try {
+      (0, eval)(text);
+    } finally {
+      open.pop();
+    }
   }
 });
 

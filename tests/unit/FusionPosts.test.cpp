@@ -46,3 +46,18 @@ TEST_CASE("fusion posts: a second kernel, written from the reference, prints the
     CHECK(ours.out == *wanted);
   }
 }
+
+TEST_CASE("fusion posts: an include that includes itself is named, and one that ends is run") {
+  const ProcessFolder folder;
+  folder.write("a.js", "include(\"b.js\");\n");
+  folder.write("b.js", "include(\"a.js\");\n");
+  folder.write("endless.cps", "include(\"a.js\");\n");
+  folder.write("once.js", "if (count < 5) { count += 1; include(\"once.js\"); }\n");
+  folder.write("ends.cps", "var count = 0;\ninclude(\"once.js\");\n");
+  const ShellResult endless = folder.run("dotek new job --from endless.cps");
+  CHECK(endless.status == 1);
+  CHECK_MESSAGE(endless.err.find("a file that includes itself has no end") != std::string::npos, endless.err);
+  CHECK_MESSAGE(endless.err.find("b.js, a.js, b.js") != std::string::npos, endless.err);
+  const ShellResult ends = folder.run("dotek new job --from ends.cps");
+  CHECK_MESSAGE(ends.status == 0, ends.err);
+}

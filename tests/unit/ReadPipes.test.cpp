@@ -2,6 +2,7 @@
 // waits for it, and it is not passed over in silence where something depends on it.
 #include "tests/GoldenRunner.h"
 #include "tests/Process.h"
+#include "tests/Skips.h"
 
 #include <doctest/doctest.h>
 #include <vector>
@@ -70,4 +71,63 @@ TEST_CASE("settings that cannot be read are an error of each command") {
                                       << result.out << result.err);
     }
   }
+}
+
+TEST_CASE("a pipe that a file names, or a folder holds, is refused and nobody waits for it") {
+  const ProcessFolder folder;
+  const std::string root = "'" + dotek::tests::root().string() + "/examples/";
+  folder.write("p.nc", kProgram);
+  folder.write("caller.nc", "%\nO1\nM98 P9\nM30\n%\n");
+  folder.write("st/dotek.toml", "schema = 1\nprog = \"pf\"\n");
+  folder.write("post.cps", "include(\"lib.js\");\n");
+  folder.run(
+      "cp -r " + root + "surface-x' st/sx; cp -r " + root +
+      "surface-x' sy; rm sy/ToolPath.mac; mkfifo st/pf sy/ToolPath.mac lib.js pipe; mkdir programs; mkfifo "
+      "programs/O9.nc");
+  for (const char* command : {"lint st/sx", "convert st/sx --to fanuc", "post st/sx",
+                              "verify st/sx --to fanuc", "dump st/sx --stage ir", "dump sy", "lint sy",
+                              "new job --from post.cps", "run-post post.cps --matrix probing",
+                              "sim caller.nc --programs programs", "flatten caller.nc --programs programs"}) {
+    const ShellResult result = folder.run(std::string("timeout 20 \"$DOTEK\" ") + command);
+    CHECK_MESSAGE(result.status > 0, command);
+    CHECK_MESSAGE(result.status < 3, std::string(command) << result.status);
+    CHECK_MESSAGE((result.out + result.err).find("no regular file") != std::string::npos,
+                  std::string(command) << "\n"
+                                       << result.out << result.err);
+  }
+  // Nothing can be changed in place there, and nobody waits for a reader.
+  for (const char* command : {"renumber --all pipe", "fmt --write pipe", "renumber p.nc pipe"}) {
+    const ShellResult result = folder.run(std::string("timeout 20 \"$DOTEK\" ") + command);
+    CHECK_MESSAGE(result.status == 2, std::string(command) << result.err);
+    CHECK_MESSAGE(result.err.find("`pipe` cannot be written: it is no regular file") != std::string::npos,
+                  result.err);
+  }
+  CHECK(folder.run("timeout 20 \"$DOTEK\" renumber - < p.nc").status == 0);
+}
+
+TEST_CASE("a link that leads out is refused with the folder that it leads to") {
+  const ProcessFolder folder;
+  folder.write("out/part.stl", "solid\nendsolid\n");
+  folder.write("in/part.toml",
+               "schema = 1\n[[shape]]\nkind = \"mesh\"\nfile = \"part.stl\"\nunit = \"mm\"\n");
+  folder.write("p.nc", kProgram);
+  folder.run("ln -s ../out/part.stl in/part.stl");
+  const ShellResult result =
+      folder.run("dotek sim p.nc --part in/part.toml --include in --tool 1 --length 50 --diameter 6");
+  CHECK(result.status > 0);
+  CHECK_MESSAGE(result.err.find("is not in `in/`, and is not read; allow its folder by `--include out`") !=
+                    std::string::npos,
+                result.err);
+}
+
+TEST_CASE("a file that is an input and included by another one is opened once") {
+  const ProcessFolder folder;
+  if (folder.run("strace -V && strace -o /dev/null true").status != 0) return skip("there is no strace");
+  const std::string root = "'" + dotek::tests::root().string() + "/examples/";
+  folder.run("cp -r " + root + "surface-x' tw");
+  folder.write("tw/t.mac", "add_custom_drill_cycle_path feed_x, 77\n");
+  folder.run("printf '#include \"t.mac\"\\n' >> tw/ToolPath.mac");
+  const ShellResult result =
+      folder.run("strace -f -e trace=open,openat -o trace \"$DOTEK\" lint tw; grep -c 't\\.mac' trace");
+  CHECK_MESSAGE(result.out.ends_with("1\n"), result.out << result.err);
 }
