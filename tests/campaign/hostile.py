@@ -57,7 +57,7 @@ KINDS = [
     (PROG, "p.txt", [["lint", "--select", "all", "--from", "prog", "p.txt"]]),
     (SUF, "a.SUF", [["lint", "--select", "all", "a.SUF"], ["sim", "--json", "a.SUF"]]),
     (TOML, "dotek.toml", [["lint", "b.nc"], ["sim", "--json", "--part", "dotek.toml", "b.nc"], ["sim", "--json", "--job", "dotek.toml", "b.nc"]]),
-    (STL, "a.stl", [["sim", "--json", "--part", "part.toml", "--machine", "machine.toml", "b.nc"]]),
+    (STL, "a.stl", [["sim", "--json", "--part", "part.toml", "--tool", "1", "--length", "50", "--diameter", "6", "b.nc"]]),
 ]
 SIZES = (20_000, 400_000)  # bytes
 DRAWN = 100  # files
@@ -87,8 +87,7 @@ def drawn(random, texts):
 def run(judge, folder, random):
     folder = pathlib.Path(folder)
     (folder / "b.nc").write_text("%\nO1\nG90 G54 G0 X0 Y0\nG31 Z-5. F100.\nM30\n%\n")
-    (folder / "part.toml").write_text('[[add]]\nshape = "mesh"\nfile = "a.stl"\nunit = "mm"\n')
-    (folder / "machine.toml").write_text("")
+    (folder / "part.toml").write_text('schema = 1\n[[shape]]\nkind = "mesh"\nfile = "a.stl"\nunit = "mm"\n')
     for texts, name, commands in KINDS:
         for begin, piece, end in texts:
             for size in SIZES:

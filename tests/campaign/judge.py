@@ -57,6 +57,10 @@ class Judge:
         self.slowest = (0.0, "")
         self._validators = Validators()
 
+    def document(self, schema, text):
+        """What is wrong with a text that is to keep to the schema, or None."""
+        return self._validators.fault(schema, text)
+
     def run(self, arguments, folder, prints=None, files=(), stdin=None):
         """What is wrong, or None. `prints` names the schema of standard output, `files` are (path, schema), `stdin` is a file."""
         begin = time.monotonic()
@@ -85,8 +89,7 @@ class Judge:
             return "fails without a word"
         if took > SLOW:
             return f"takes {took:.1f} s"
-        # A wrong command line prints a message and no document.
-        if prints and not (process.returncode == 2 and not out):
+        if prints:
             fault = self._validators.fault(prints, out)
             if fault:
                 return fault

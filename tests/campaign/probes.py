@@ -2,6 +2,8 @@
 
 import os
 import pathlib
+import re
+import shutil
 import subprocess
 
 from judge import ROOT
@@ -49,6 +51,33 @@ WRITERS = {
     "to cycle": f"convert {CYCLE} --to cycle -o OUT",
 }
 NAMES = ["a\x1b[2Jb.nc", "a\nb.nc", "a\u202eb.nc", "a\u009bb.nc", "-a.nc", " .nc", "a'b.nc", "a\"b.nc", "a%sb.nc", "\u00e9.nc", "a\x7f.nc", "x" * 250 + ".nc"]
+# Files that hold nothing, or next to nothing, as each kind of input.
+EMPTY = ["", "\n", "\n\n", "%", "%\n%\n", "(C)\n", "O1\n", " ", "\0", "\ufeff"]
+EMPTY_NAMES = {
+    "e.nc": ["lint", "flatten", "sim", "sim --programs .", f"sim --json --device {ROOT}/examples/ram-compensation/device.toml", "sim --call D1.", "dump",
+             "dump --stage ir", "convert --to fanuc", "verify --to fanuc --cases 2", "verify p.nc --to fanuc --cases 2 --translation", "renumber -o -", "fmt",
+             "outline", "outline --json", "sim --svg s --quiet"],
+    "e.SUF": ["lint", "sim", "dump", "dump --stage ir", "convert --to fanuc"], "e.mac": ["lint", "dump"], "e.dlg": ["lint", "dump"],
+    "e.txt": ["lint --from prog", "dump --from prog", f"post {ROOT}/examples/surface-x --prog", "new form f --prog"],
+    "e.cycle": ["check", "fmt", "sim", "dump", "dump --stage ir", "doc", "convert --to fanuc", "verify --to fanuc --cases 2"],
+    "e.cps": ["lint", "dump", "new job --from", "run-post --matrix probing"],
+    "e.toml": ["lint", "sim p.nc --part", "sim p.nc --machine", "sim p.nc --device", "sim p.nc --job", "lint p.nc --baseline", f"run-post {POST}", "lint p.nc --control"],
+    "e.stl": ["lint"],
+}
+# An error that ends a command before it has a result; what it was to write stays.
+EARLY = ["--job bad.toml", "--part bad.toml", "--machine bad.toml", "--translation nosuch", "--routine nosuch", "--limit steps=1", "--data nosuch", "--baseline nosuch",
+         "--device bad.toml", "--prog nosuch", "--form nosuch", "--control nosuch", ""]
+# Pairs of a flag and what is wrong with it, of commands that print a document.
+WRONG = ["--nosuch", "--encoding x", "--control x", "--data nosuch", "--limit x", "--select nosuch", "--set x", "--statistics", "--write-baseline p.nc", "-o p.nc", "--svg p.nc",
+         "--baseline nosuch", "nosuch", "- --stdin-filename x.nc <&-"]
+DOCUMENTS = {"sim --json": "sim", "outline --json": "outline", "lint --format json": "findings", "lint --format sarif": "sarif", "lint --format gitlab": "gitlab",
+             "check --format json": "findings"}
+# Commands, of which each flag that takes a value gets one that names nothing.
+FLAGS = ["lint p.nc", "sim p.nc", "dump p.nc", "dump sx", "dump sx --stage path", "dump sx --stage ir --prog post.txt", "convert p.nc --to fanuc", "verify p.nc --to fanuc --cases 2",
+         "flatten p.nc", "renumber p.nc -o -", "outline p.nc", "fmt p.nc", "check bore.cycle", "sim bore.cycle", "doc bore.cycle", "preview sx", f"run-post {POST} {JOB}",
+         "post sx --prog post.txt --form thesis-a --clearance 5", "convert sx --prog post.txt --form thesis-a --to fanuc"]
+# What takes any text, writes a file of that name, or looks for nothing where nothing is missing.
+ANY = ["--remark", "--date", "--stdin-filename", "--map", "--trace", "--svg", "--html", "--report", "--helpers", "--write-baseline", "--help"]
 TALK = b"".join(b"Content-Length: %d\r\n\r\n%s" % (len(body), body) for body in (
     b'{"id":1,"method":"initialize","params":{"capabilities":{}}}', b'{"id":2,"method":"shutdown"}', b'{"method":"exit"}'))
 OLD = "%\nO1\nN1 GO X1.\nM30\n%\n"
@@ -122,6 +151,54 @@ def quiet_names(done):
     return f"prints {bad[0]!r} of a name" if bad else None
 
 
+FORGED = "a\x1b[31m\u202e\nfake"  # as a name and as a text
+
+
+def quiet_texts(done):
+    """The same, and no line of its own."""
+    return quiet_names(done) or ("a name begins a line" if b"\nfake" in done.stdout + done.stderr else None)
+
+
+def texts(probe):
+    """Names and texts of inputs and flags, in lists, tables, dumps and files that are begun."""
+    quoted = "'" + FORGED + "'"
+    for folder in ("list", "forms", "posts"):
+        (probe.here / folder).mkdir()
+    (probe.here / "list" / (FORGED + ".xyz")).write_bytes(b"\1\2")
+    (probe.here / "list" / "p.nc").write_text("%\nO1\nG0 X1. (A\x1b[31m\u202e)\n#500=1.\n#3006=1(A\x1b[31mB)\nM30\n%\n")
+    (probe.here / "forms" / (FORGED + ".txt")).write_text("progStart:\n SeqC SpinOff EOL\nRETURN\n")
+    text = "a\\u001b[31m\\u202e\\nfake"
+    post = (f"properties = {{a: {{title: '{text}', type: 'boolean', value: true}}}};\n"
+            f"function onOpen() {{ warning('{text}'); writeln('{text}'); }}\nfunction onCyclePoint() {{ error('{text}'); }}\n")
+    for name in ("post", "posts/" + FORGED):
+        (probe.here / (name + ".cps")).write_text(post)
+    return ["lint list", "lint --list-skipped list", "lint --format sarif list", "lint --format github list", "lint --quiet list", "dump --stage tokens list/p.nc",
+            "dump --stage ast list/p.nc", "dump --stage ir list/p.nc", f"sim --show 500={quoted} list/p.nc", f"sim --json --show 500={quoted} list/p.nc",
+            f"sim --html o.html --quiet --show 500={quoted} list/p.nc", f"new form f --prog forms/{quoted}.txt", f"new job --from posts/{quoted}.cps",
+            "run-post post.cps --matrix probing", "run-post post.cps --matrix drilling", f"convert --keep-going --to fanuc -d o list/p.nc {quoted}", "lint post.cps",
+            f"lint list --data {quoted}", f"lint list/p.nc --control {quoted}", f"lint {quoted}", f"verify list/p.nc --to fanuc --cases 2 --remark {quoted}"]
+
+
+def project(probe):
+    """A folder with a cycle, a Prog and a cycle of the language, and what is broken."""
+    shutil.copytree(f"{ROOT}/examples/surface-x", probe.here / "sx")
+    shutil.copy(f"{ROOT}/examples/post.txt", probe.here / "post.txt")
+    shutil.copy(f"{ROOT}/examples/cycles/bore.cycle", probe.here / "bore.cycle")
+    (probe.here / "bad.toml").write_text("x\n")
+    (probe.here / "soft").symlink_to("sx/ToolPath.mac")
+    (probe.here / "self.nc").symlink_to("self.nc")
+
+
+def state(probe):
+    return {str(p.relative_to(probe.here)): p.read_bytes() for p in sorted(probe.here.rglob("*")) if p.is_file()}
+
+
+def flags_of(probe, command):
+    """Flags of a command that take a value, as its help lists them."""
+    text = probe.bash(f"dotek {command.split()[0]} --help").stdout.decode("utf-8", "replace")
+    return [m[1] for m in re.finditer(r"^\s+(--[a-z-]+)[ ,](?=\s*[A-Z])", text, re.M) if m[1] not in ANY]
+
+
 DRAWN = 150
 
 
@@ -150,6 +227,63 @@ def drawn(probe, random):
     script = (f"set -m; '{probe.judge.dotek}' {WRITERS[flag]} --force > /dev/null 2>&1 & sleep {random.random() * 0.08:.4f}; "
               f"kill -{signal} $! 2> /dev/null; wait $!; s=$?; [ $s -le 2 ] || [ $s -gt 128 ] || exit 99{left}; exit 0")
     return script, (0,), lambda done: kept(probe, new)(subprocess.CompletedProcess([], 1))
+
+
+def named(probe, told):
+    """Inputs of nothing, errors before the run, texts of others, documents, pipes that nobody named, flags that nothing reads."""
+    for name, commands in EMPTY_NAMES.items():
+        for text in EMPTY:
+            for command in commands:
+                probe.fresh()
+                (probe.here / name).write_text(text)
+                yield told(f"dotek {command} {name}", (0, 1, 2), lambda done: None if done.returncode == 0 or done.stderr + done.stdout else "fails without a word")
+    for flag, command in WRITERS.items():
+        if flag in ("--fix", "in place", "write"):  # change their inputs
+            continue
+        inputs = ["sx/ToolPath.mac", "soft"] if "surface-x" in command else []
+        for early in EARLY:
+            for output in ["OUT", *inputs]:
+                probe.fresh()
+                project(probe)
+                (probe.here / "OUT").write_text(OLD)
+                if not early:
+                    (probe.here / "dotek.toml").write_text("x\n")
+                before = state(probe)
+                told_of = command.replace(f"{ROOT}/examples/surface-x", "sx").replace(f"{ROOT}/examples/post.txt", "post.txt")
+
+                def untouched(done, before=before):
+                    now = state(probe)
+                    changed = [name for name, bytes in before.items() if now.get(name) != bytes and (name != "OUT" or not now.get(name))]
+                    return f"status {done.returncode}, and {changed} changed" if changed else None
+
+                yield told(f"dotek {told_of.replace('OUT', output)} {early}", (0, 1, 2), untouched)
+    probe.fresh()
+    for command in texts(probe):
+        yield told("dotek " + command, (0, 1, 2), quiet_texts)
+    for command, schema in DOCUMENTS.items():
+        for wrong in WRONG:
+            probe.fresh()
+            project(probe)
+            name = "bore.cycle" if command.startswith("check") else "p.nc"
+
+            def document(done, schema=schema):
+                return probe.judge.document(schema, done.stdout)
+
+            yield told(f"dotek {command} {name} {wrong}", (0, 1, 2), document)
+    pipes = ["mkfifo pf; printf 'schema = 1\\nprog = \"pf\"\\n' > dotek.toml; dotek convert sx --to fanuc", "mkfifo pf; printf 'schema = 1\\ncontrol = \"./pf\"\\n' > dotek.toml; dotek lint p.nc",
+             "rm sx/ToolPath.mac; mkfifo sx/ToolPath.mac; dotek dump sx", "rm sx/CycleData.dlg; mkfifo sx/CycleData.dlg; dotek preview sx", "mkfifo lib.js; echo 'include(\"lib.js\");' > a.cps; dotek new job --from a.cps",
+             "mkfifo lib.js; echo 'include(\"lib.js\");' > a.cps; dotek lint a.cps", "mkdir pr; mkfifo pr/O9.nc; printf 'O1\\nM98P9\\nM30\\n' > c.nc; dotek sim c.nc --programs pr",
+             "mkfifo f; dotek renumber --all f", "mkfifo f; timeout 5 sh -c 'cat p.nc > f' > /dev/null 2>&1 & dotek fmt --write f", "mkfifo f; timeout 5 sh -c 'cat p.nc > f' > /dev/null 2>&1 & dotek lint --fix f",
+             "mkfifo sx/x.mac; echo '#include \"x.mac\"' >> sx/ToolPath.mac; dotek lint sx", "echo 'include(\"a.cps\");' > a.cps; dotek new job --from a.cps"]
+    for script in pipes:
+        probe.fresh()
+        project(probe)
+        yield told(script, (0, 1, 2))
+    for command in FLAGS:
+        for flag in flags_of(probe, command):
+            probe.fresh()
+            project(probe)
+            yield told(f"dotek {command} {flag} ./self.nc", (1, 2), lambda done: None if done.returncode else f"takes {flag} ./self.nc")
 
 
 def run(judge, folder, random):
@@ -214,6 +348,7 @@ def run(judge, folder, random):
     for script in others:
         probe.fresh()
         yield told(script, (0, 1, 2))
+    yield from named(probe, told)
     for _ in range(DRAWN):
         script, statuses, more = drawn(probe, random)
         yield told(script, statuses, more)
