@@ -45,6 +45,13 @@ std::optional<LatheMark> latheMark(const macrob::File& file) {
   return LatheMark{blocks[sign->at]->range, sign->what};
 }
 
+std::set<const macrob::File*> latheFiles(const Project& project) {
+  std::set<const macrob::File*> out;
+  for (const NcFile& nc : project.programs)
+    if (latheMark(*nc.file)) out.insert(nc.file);
+  return out;
+}
+
 bool isOfMills(std::string_view rule) {
   static constexpr std::array<std::string_view, 22> kRules = {
       "arc-geometry",          "arc-without-centre",     "codes-exclude",

@@ -35,9 +35,7 @@ void runRules(const Project& project, Diagnostics& diagnostics,
   for (const NamedRule& named : rules())
     if (wanted(named)) all.push_back(&named);
 
-  std::set<const macrob::File*> lathes;
-  for (const NcFile& nc : project.programs)
-    if (latheMark(*nc.file)) lathes.insert(nc.file);
+  const std::set<const macrob::File*> lathes = latheFiles(project);
 
   if (auto parsed = chosen(&Rule::parsed, all, diagnostics); !parsed.empty())
     for (const NcFile& nc : project.programs)

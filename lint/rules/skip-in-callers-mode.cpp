@@ -121,8 +121,9 @@ void checkProgram(const ir::Program& program, const Others& others, Report& repo
 
 void check(const Project& project, Report& report) {
   const Others others = othersOf(project);
+  const std::set<const macrob::File*> lathes = latheFiles(project);
   eachProgram(project, [&](const ir::Program& program, const macrob::File& file) {
-    if (!latheMark(file)) checkProgram(program, others, report);
+    if (!lathes.contains(&file)) checkProgram(program, others, report);
   });
 }
 
