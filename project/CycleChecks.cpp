@@ -7,6 +7,7 @@
 #include "support/messages/Commands.h"
 
 #include <algorithm>
+#include <set>
 
 namespace dotek::project {
 
@@ -21,31 +22,34 @@ std::string flags(const std::vector<std::string>& hosts) {
   return out;
 }
 
-bool boundByDialog(const CycleFolder& folder, const std::string& folded) {
-  if (!folder.cycle->dialog) return false;
-  const auto& controls = folder.cycle->dialog->controls;
-  return std::any_of(controls.begin(), controls.end(), [&](const gibbs::Control& control) {
-    return control.variable && gibbs::foldCase(control.variable->text) == folded;
-  });
+// Folded names of what the user types in the dialog.
+std::set<std::string> typedInDialog(const CycleFolder& folder) {
+  std::set<std::string> out;
+  if (!folder.cycle->dialog) return out;
+  for (const gibbs::Control& control : folder.cycle->dialog->controls)
+    if (control.variable) out.insert(gibbs::foldCase(control.variable->text));
+  return out;
 }
 
-bool isStored(const CycleFolder& folder, const Session& session, const std::string& name) {
-  return !boundByDialog(folder, name) || session.options().assume.contains("changed-field=macro");
+bool isStored(const std::set<std::string>& typed, const Session& session, const std::string& name) {
+  return !typed.contains(name) || session.options().assume.contains("changed-field=macro");
 }
 
 // The CAM stores a variable as the macro leaves it. That is certain enough where the user cannot type the
 // value; where he can, which of the two is stored is not known.
 void takeChanges(const gibbs::ChecksResult& result, const CycleFolder& folder, FieldTable& fields,
                  Session& session) {
+  if (result.changed.empty()) return;
+  const std::set<std::string> typed = typedInDialog(folder);
+  const std::map<std::string, double> before = fields.macroValues();
   std::size_t at = 0;
   for (const auto& [name, value] : result.changed) {
     const SourceRange where =
         at < result.changedAt.size() ? result.changedAt[at] : SourceRange{folder.place, 0, 0};
     ++at;
-    const auto before = fields.macroValues();
     const auto given = before.find(name);
     const std::string was = given == before.end() ? "nothing" : numberText(given->second);
-    if (isStored(folder, session, name)) {
+    if (isStored(typed, session, name)) {
       session.diagnostics().report<diag::FieldComputed>(where, name, numberText(value), was);
       fields.change(name, value);
     } else if (!session.options().assume.contains("changed-field=given")) {
@@ -59,8 +63,9 @@ void rejected(const gibbs::ChecksResult& result, const CycleFolder& folder, cons
               Blame blame, Diagnostics& diagnostics) {
   // A value that the user types; what the macro computes from it follows.
   std::set<std::string> typed;
-  for (const auto& [name, value] : context.fields)
-    if (boundByDialog(folder, name)) typed.insert(name);
+  if (blame == Blame::Fields)
+    for (const std::string& name : typedInDialog(folder))
+      if (context.fields.contains(name)) typed.insert(name);
   std::vector<std::pair<std::string, double>> blamed;
   std::vector<std::string> causes;
   if (blame == Blame::Fields)
@@ -104,8 +109,10 @@ void takeComputed(const gibbs::ChecksResult& result, const CycleFolder& folder, 
                   std::map<std::string, double>& values) {
   using Verdict = gibbs::ChecksResult::Verdict;
   if (result.verdict != Verdict::Passes && result.verdict != Verdict::Depends) return;
+  if (result.changed.empty()) return;
+  const std::set<std::string> typed = typedInDialog(folder);
   for (const auto& [name, value] : result.changed)
-    if (isStored(folder, session, name)) values[name] = value;
+    if (isStored(typed, session, name)) values[name] = value;
 }
 
 void runCycleChecks(const CycleFolder& folder, FieldTable& fields, const std::map<std::string, double>& hosts,

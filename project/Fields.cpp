@@ -8,6 +8,7 @@
 #include "support/messages/Gibbs.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace dotek::project {
 
@@ -18,13 +19,19 @@ FieldTable::FieldTable(const CycleFolder& folder, std::vector<std::string> print
   for (const gibbs::Field& field : gibbs::declaredFields(*folder.cycle))
     entries_.push_back(
         {field.name.text, gibbs::foldCase(field.name.text), field.value, field.valueRange, field.assumption});
+  auto byName = std::make_shared<std::vector<std::size_t>>(entries_.size());
+  std::iota(byName->begin(), byName->end(), 0);
+  std::stable_sort(byName->begin(), byName->end(),
+                   [&](std::size_t a, std::size_t b) { return entries_[a].folded < entries_[b].folded; });
+  byName_ = std::move(byName);
 }
 
 const FieldTable::Entry* FieldTable::declared(const std::string& name) const {
   const std::string folded = gibbs::foldCase(name);
   const auto found =
-      std::find_if(entries_.begin(), entries_.end(), [&](const Entry& e) { return e.folded == folded; });
-  return found == entries_.end() ? nullptr : &*found;
+      std::lower_bound(byName_->begin(), byName_->end(), folded,
+                       [&](std::size_t i, const std::string& wanted) { return entries_[i].folded < wanted; });
+  return found == byName_->end() || entries_[*found].folded != folded ? nullptr : &entries_[*found];
 }
 
 FieldTable::Entry* FieldTable::declared(const std::string& name) {
@@ -212,9 +219,8 @@ std::optional<double> FieldTable::value(const std::string& name, SourceRange whe
 
 std::map<std::string, double> FieldTable::macroValues() const {
   std::map<std::string, double> out;
-  for (const Entry& entry : entries_) {
-    if (entry.value) out.emplace(entry.folded, *entry.value);
-  }
+  for (const std::size_t i : *byName_)
+    if (entries_[i].value) out.emplace_hint(out.end(), entries_[i].folded, *entries_[i].value);
   return out;
 }
 

@@ -6,6 +6,7 @@
 #include "project/Session.h"
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -67,10 +68,11 @@ private:
   const CycleFolder& folder_;
   Session& session_;
   std::vector<std::string> printed_;
-  std::vector<Entry> entries_;                // in the order of declaration
-  std::map<std::string, double> postOnly_;    // --set of names that the macro does not declare
-  std::map<std::string, std::string> mapped_; // post field -> macro variable
-  std::set<std::string> told_;                // post fields of which a finding was reported
+  std::vector<Entry> entries_;                             // in the order of declaration
+  std::shared_ptr<const std::vector<std::size_t>> byName_; // entries by their folded names; of all copies
+  std::map<std::string, double> postOnly_;                 // --set of names that the macro does not declare
+  std::map<std::string, std::string> mapped_;              // post field -> macro variable
+  std::set<std::string> told_;                             // post fields of which a finding was reported
 };
 
 } // namespace dotek::project

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace dotek::verify {
@@ -41,14 +42,26 @@ private:
     std::optional<double> margin; // of the comparison that is wanted, where the checks come to it
   };
   static constexpr std::size_t kNone = SIZE_MAX;
+  // What 1 more of one input does, of all that the checks read.
+  struct Influence {
+    std::vector<bool> open; // by VariableId: the checks may go another way, only a walk tells
+    std::vector<std::pair<ir::VariableId, std::size_t>> changed; // the margin of the comparison, the way kept
+  };
   // `wanted`: kNone: no comparison. `seen`: of every comparison, where the checks first come to it.
-  Walk walk(std::size_t wanted, const Case& drawn, std::vector<std::optional<double>>* seen = nullptr) const;
+  Walk walk(std::size_t wanted, const Case& drawn, std::vector<std::optional<double>>* seen = nullptr,
+            Influence* influence = nullptr) const;
   // Left less right where the checks come to the comparison; nothing: they do not, or it is not known.
   std::optional<double> margin(std::size_t comparison, const Case& drawn) const;
-  // The same of every comparison.
-  std::vector<std::optional<double>> margins(const Case& drawn) const;
+  // The other fields that the margin depends on, to a multiple of a half.
+  void roundOthers(const Bound& bound, const std::vector<DrawField>& fields, double before,
+                   Case& drawn) const;
+
+  // The field that a variable of the checks is, by VariableId; kNone: none.
+  std::vector<std::size_t> fieldsOf(const std::vector<DrawField>& fields) const;
 
   ir::Cycle cycle_;
+  std::vector<ir::VariableId> inputs_;             // fields and host inputs that the checks read
+  std::vector<std::vector<ir::VariableId>> reads_; // fields that a check reads, by the place of the check
   struct Compared {
     const ir::Comparison* comparison = nullptr;
     std::size_t statement = 0; // of the branch that holds it

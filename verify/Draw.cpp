@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 
 namespace dotek::verify {
 namespace {
@@ -163,10 +164,10 @@ Draws::Draws(std::vector<DrawField> fields, std::vector<std::string> hosts,
   std::vector<std::vector<Edge>> each;
   std::size_t most = 0;
   for (std::size_t n = 0; n < fields_.size(); ++n) {
-    each.push_back(edgesOf(n));
+    each.push_back(edgesOf(n, edges));
     most = std::max(most, each.back().size());
   }
-  for (std::size_t row = 0; row < most; ++row) {
+  for (std::size_t row = 0; row < most && edges_.size() < edges; ++row) {
     for (const std::vector<Edge>& list : each)
       if (row < list.size()) edges_.push_back(list[row]);
   }
@@ -315,18 +316,16 @@ void Draws::settleHosts(Case& drawn, const DrawnPath& path) const {
 
 // ---- edges
 
-std::vector<Draws::Edge> Draws::edgesOf(std::size_t index) const {
+std::vector<Draws::Edge> Draws::edgesOf(std::size_t index, std::uint64_t most) const {
   using Means = Edge::Means;
   const DrawField& field = fields_[index];
   std::vector<Edge> out;
   if (field.fixed) return out;
   const double step = stepOf(field), largest = 1000 - step;
+  std::set<double> known;
   const auto add = [&](double value) {
     value = rounded(value, field.decimals);
-    const bool known = std::any_of(out.begin(), out.end(), [&](const Edge& edge) {
-      return edge.means == Means::Value && edge.value == value;
-    });
-    if (!known) out.push_back({index, Means::Value, value, 0});
+    if (known.insert(value).second) out.push_back({index, Means::Value, value, 0});
   };
   if (field.kind == Kind::WorkOffset) {
     const double first = field.firstSystem, last = first + kLastSystem - kFirstSystem;
@@ -347,6 +346,7 @@ std::vector<Draws::Edge> Draws::edgesOf(std::size_t index) const {
   add(0);
   if (isSize) out.push_back({index, Means::Radius, -1, 0});
   for (const double threshold : field.thresholds) {
+    if (out.size() >= most) return out;
     if (std::abs(threshold) > largest) continue;
     add(threshold);
     add(threshold - step);

@@ -89,7 +89,7 @@ private:
     int steps = 0;
     std::size_t comparison = 0; // of a Bound
   };
-  std::vector<Edge> edgesOf(std::size_t field) const;
+  std::vector<Edge> edgesOf(std::size_t field, std::uint64_t most) const; // the first ones
   std::vector<Edge> boundEdges(std::uint64_t most) const;
   void apply(const Edge& edge, Case& drawn) const;
   double value(std::size_t index, bool near, std::uint32_t attempt, Random& random) const; // of a field
