@@ -17,6 +17,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
+// Folders one in another: the system goes through all above it to reach an entry, so that n of them take n *
+// n steps.
+constexpr std::size_t kDeepest = 200;
+
 // The one name of a file; the path as it is where the system does not say.
 std::string canonical(const std::string& path) {
   std::error_code error;
@@ -74,9 +78,11 @@ void InputWalk::folder(const std::string& path, bool named, Diagnostics& diagnos
     entries.push_back(at->path());
   if (error) diagnostics.report<diag::FileNotReadable>({}, path, error.message());
   std::sort(entries.begin(), entries.end());
+  ++deep_;
   for (const fs::path& one : entries)
     if (found_ <= most_ && !one.filename().string().starts_with('.'))
       entry(one.generic_string(), diagnostics);
+  --deep_;
 }
 
 void InputWalk::entry(const std::string& path, Diagnostics& diagnostics) {
@@ -89,12 +95,14 @@ void InputWalk::entry(const std::string& path, Diagnostics& diagnostics) {
     passOver(path, "a link that leads out of the folder; `--follow-links` follows it");
   } else if (link && (fs::is_directory(status) || fs::is_regular_file(status))) {
     links_.push_back(path);
+  } else if (fs::is_directory(status) && deep_ > kDeepest) {
+    passOver(path, fmt::format("more than {} folders deep", kDeepest));
   } else if (fs::is_directory(status)) {
     folder(path, false, diagnostics);
   } else if (fs::is_regular_file(status)) {
     if (isNew(path)) found(path, false, diagnostics);
   } else {
-    passOver(path, "no regular file");
+    passOver(path, error ? "the system does not reach it: " + error.message() : "no regular file");
   }
 }
 

@@ -49,6 +49,7 @@ private:
 
   bool followLinks_;
   std::size_t most_, found_ = 0;
+  std::size_t deep_ = 0; // folders that the walk is in
   Visit folder_, file_;
   std::string root_;                           // of the walk, without links
   std::set<std::string> visited_;              // without links

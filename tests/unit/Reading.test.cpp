@@ -333,6 +333,20 @@ TEST_CASE("reading: a walk of more files than the limit says so and reports noth
   CHECK(dotekIn(folder, {"lint", "m", "--limit", "files=5"}).status == 1);
 }
 
+TEST_CASE("reading: a walk says what is too deep for it") {
+  const DataFolder folder;
+  std::string path = "m/";
+  for (int i = 0; i < 199; ++i)
+    path += "d/";
+  folder.write(path + "a.nc", kGood);
+  folder.write(path + "d/b.nc", kGood);
+  folder.write(path + "d/e/c.nc", kBad);
+  const CommandResult run = dotekIn(folder, {"lint", "m"});
+  CHECK(run.status == 0);
+  CHECK(holds(run.err, "2 files checked, 1 skipped (d/"));
+  CHECK(holds(run.err, "d/e: more than 200 folders deep)\n"));
+}
+
 TEST_CASE("reading: a walk ends, leaves links out of its folder and what is no regular file") {
   const DataFolder folder;
   folder.write("m/a.nc", kGood);
