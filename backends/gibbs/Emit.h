@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,6 +33,11 @@ struct Field {
   std::vector<Choice> choices; // of a list; empty: a number
 };
 
+struct TakenNames {
+  std::set<std::string> names;     // in small letters
+  std::map<std::string, int> next; // the number to try next, by the name that was wanted
+};
+
 // Names in the CAM's files of all variables of a cycle.
 class Names {
 public:
@@ -45,7 +51,7 @@ public:
 
 private:
   std::vector<std::string> names_;
-  std::vector<std::string> taken_; // in small letters
+  TakenNames taken_;
 };
 
 struct Folder {

@@ -36,13 +36,13 @@ std::string legal(std::string_view name) {
   return out.substr(0, kLongestName);
 }
 
-std::string unused(const std::string& wanted, std::vector<std::string>& taken) {
+std::string unused(const std::string& wanted, TakenNames& taken) {
   std::string out = wanted;
-  for (int n = 2; std::find(taken.begin(), taken.end(), lowerCase(out)) != taken.end(); ++n) {
-    const std::string end = "_" + std::to_string(n);
+  int& next = taken.next.emplace(lowerCase(wanted), 2).first->second;
+  while (!taken.names.insert(lowerCase(out)).second) {
+    const std::string end = "_" + std::to_string(next++);
     out = wanted.substr(0, kLongestName - end.size()) + end;
   }
-  taken.push_back(lowerCase(out));
   return out;
 }
 

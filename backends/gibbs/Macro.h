@@ -40,7 +40,7 @@ private:
   Diagnostics& diagnostics_;
   std::vector<EmittedLine> lines_;
   std::map<ir::LabelId, std::string> labels_;
-  std::vector<std::string> taken_;
+  TakenNames taken_;
   bool failed_ = false;
   bool turns_ = false;
 };

@@ -3,6 +3,8 @@
 #include "support/Ascii.h"
 
 #include <algorithm>
+#include <map>
+#include <set>
 
 namespace dotek::backends::gibbs {
 
@@ -46,13 +48,36 @@ bool readAnywhere(const std::vector<EmittedLine>& lines, std::string_view name) 
 }
 
 void dropUnreadLines(std::vector<EmittedLine>& lines) {
-  const auto unread = [&](const EmittedLine& line) {
-    const std::string_view target = targetOf(line.text);
-    return !target.empty() && !readAnywhere(lines, target);
+  // How many lines read a name, the lines that give it a value, and what a line reads.
+  std::map<std::string, std::size_t, std::less<>> readers;
+  std::map<std::string_view, std::vector<std::size_t>> assigned;
+  const auto readBy = [&](std::size_t i) {
+    const auto names = namesIn(std::string_view(lines[i].text).substr(targetOf(lines[i].text).size()));
+    return std::set<std::string_view>(names.begin(), names.end());
   };
-  for (auto found = std::find_if(lines.begin(), lines.end(), unread); found != lines.end();
-       found = std::find_if(lines.begin(), lines.end(), unread))
-    lines.erase(found);
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    for (const std::string_view name : readBy(i))
+      ++readers.try_emplace(std::string(name)).first->second;
+    if (const std::string_view target = targetOf(lines[i].text); !target.empty())
+      assigned[target].push_back(i);
+  }
+  std::vector<bool> gone(lines.size());
+  std::vector<std::string_view> unread;
+  for (const auto& [target, at] : assigned)
+    if (!readers.contains(target)) unread.push_back(target);
+  while (!unread.empty()) {
+    const std::string_view target = unread.back();
+    unread.pop_back();
+    for (const std::size_t i : assigned[target]) {
+      gone[i] = true;
+      for (const std::string_view name : readBy(i))
+        if (--readers.find(name)->second == 0 && assigned.contains(name)) unread.push_back(name);
+    }
+  }
+  std::vector<EmittedLine> kept;
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    if (!gone[i]) kept.push_back(std::move(lines[i]));
+  lines = std::move(kept);
 }
 
 void explainHeights(std::vector<EmittedLine>& lines) {
@@ -62,15 +87,16 @@ void explainHeights(std::vector<EmittedLine>& lines) {
   if (std::none_of(lines.begin(), lines.end(),
                    [&](const EmittedLine& line) { return takesPlane(heightOf(line.text)); }))
     return;
+  std::set<std::string, std::less<>> targets;
+  for (const EmittedLine& line : lines)
+    targets.emplace(targetOf(line.text));
   for (EmittedLine& line : lines) {
     const std::string_view height = heightOf(line.text);
     const auto names = namesIn(height);
     const bool number =
         std::none_of(names.begin(), names.end(), [](std::string_view name) { return isLetter(name[0]); });
-    const bool computed = std::any_of(names.begin(), names.end(), [&](std::string_view name) {
-      return std::any_of(lines.begin(), lines.end(),
-                         [&](const EmittedLine& one) { return targetOf(one.text) == name; });
-    });
+    const bool computed = std::any_of(names.begin(), names.end(),
+                                      [&](std::string_view name) { return targets.contains(name); });
     if (height.empty() || takesPlane(height) || number || computed) continue;
     line.text += " ! dotek: ignore path-height-differs -- counted from where the cycle begins";
   }

@@ -26,22 +26,31 @@ namespace {
 constexpr std::uint32_t kMaxSteps = 10000;
 constexpr double kFirstSystem = 54, kLastSystem = 59;
 
-bool readsIn(const std::vector<ir::CycleStatement>& list, ir::VariableId id) {
-  bool found = false;
-  for (const ir::CycleStatement& statement : list)
-    ir::eachNode(statement, [&](const ir::Expression& node) {
-      const auto* use = std::get_if<ir::VariableUse>(&node.node);
-      found = found || (use != nullptr && use->variable == id);
-    });
-  return found;
-}
-
-bool assignsIn(const std::vector<ir::CycleStatement>& list, ir::VariableId id) {
-  return std::any_of(list.begin(), list.end(), [&](const ir::CycleStatement& one) {
-    const auto* node = std::get_if<ir::Assign>(&one.node);
-    return node != nullptr && node->variable == id;
-  });
-}
+// Where the statements of a cycle name each variable.
+struct Mentions {
+  explicit Mentions(const ir::Cycle& cycle)
+      : readInBody(cycle.variables.size()), assignedInChecks(readInBody), used(readInBody),
+        checks(cycle.variables.size()) {
+    for (const auto* list : {&cycle.checks, &cycle.body})
+      for (std::size_t i = 0; i < list->size(); ++i) {
+        if (const auto* assign = std::get_if<ir::Assign>(&(*list)[i].node)) {
+          used[assign->variable] = true;
+          if (list == &cycle.checks) assignedInChecks[assign->variable] = true;
+        }
+        ir::eachNode((*list)[i], [&](const ir::Expression& node) {
+          const auto* use = std::get_if<ir::VariableUse>(&node.node);
+          if (use == nullptr) return;
+          used[use->variable] = true;
+          if (list == &cycle.body)
+            readInBody[use->variable] = true;
+          else if (auto& at = checks[use->variable]; at.empty() || at.back() != i)
+            at.push_back(i);
+        });
+      }
+  }
+  std::vector<bool> readInBody, assignedInChecks, used;
+  std::vector<std::vector<std::size_t>> checks; // that read it
+};
 
 // The checks let this value pass, whatever the others are.
 bool passes(const ir::Cycle& cycle, ir::VariableId id, double value) {
@@ -167,11 +176,12 @@ bool decidesAlarms(const std::vector<ir::CycleStatement>& list, std::size_t at, 
 }
 
 // The body does not read it, and the checks compare it with constants and stop, no more.
-bool onlyItsRange(const ir::Cycle& cycle, ir::VariableId id) {
-  if (readsIn(cycle.body, id) || assignsIn(cycle.checks, id)) return false;
-  for (std::size_t i = 0; i < cycle.checks.size(); ++i)
-    if (readsOf(cycle.checks[i], id).it && !decidesAlarms(cycle.checks, i, id)) return false;
-  return true;
+bool onlyItsRange(const ir::Cycle& cycle, const Mentions& mentions, ir::VariableId id) {
+  if (mentions.readInBody[id] || mentions.assignedInChecks[id]) return false;
+  const std::vector<std::size_t>& checks = mentions.checks[id];
+  return std::all_of(checks.begin(), checks.end(), [&](std::size_t i) {
+    return !readsOf(cycle.checks[i], id).it || decidesAlarms(cycle.checks, i, id);
+  });
 }
 
 // What the source says of a field beside what is in the IR.
@@ -244,13 +254,14 @@ void dropAbsences(LoweredCycle& lowered) {
 void fixUnused(LoweredCycle& lowered, bool keepChecked, const ir::FoldOptions& folding,
                Diagnostics& diagnostics) {
   ir::Cycle& cycle = lowered.cycle;
+  const Mentions mentions(cycle);
   std::map<ir::VariableId, double> fixed;
   for (ir::VariableId id = 0; id < cycle.variables.size(); ++id) {
     const ir::Variable& variable = cycle.variable(id);
     if (variable.role != ir::Role::Parameter || lowered.fixed.contains(id) || variable.optional) continue;
-    if (ir::uses(cycle, id) && (keepChecked || !onlyItsRange(cycle, id))) continue;
+    if (mentions.used[id] && (keepChecked || !onlyItsRange(cycle, mentions, id))) continue;
     diagnostics.report<diag::CamUnused>(variable.range, variable.name);
-    if (variable.defaultValue && ir::uses(cycle, id)) fixed.emplace(id, *variable.defaultValue);
+    if (variable.defaultValue && mentions.used[id]) fixed.emplace(id, *variable.defaultValue);
   }
   if (fixed.empty()) return;
   lowered.fixed.insert(fixed.begin(), fixed.end());
@@ -275,12 +286,13 @@ gibbs::Folder folderOf(const CycleFolder& folder, LoweredCycle& lowered,
     }
   }
   const auto choices = dialogChoices(folder, cycle, session.sources());
+  const Mentions mentions(cycle);
   for (ir::VariableId id = 0; id < cycle.variables.size(); ++id) {
     const ir::Variable& variable = cycle.variable(id);
-    const bool computed = assignsIn(cycle.checks, id) || variable.name == "tool_radius";
-    const bool kept = computed && readsIn(cycle.body, id);
+    const bool computed = mentions.assignedInChecks[id] || variable.name == "tool_radius";
+    const bool kept = computed && mentions.readInBody[id];
     const bool asked = variable.role == ir::Role::Parameter && !without.contains(id);
-    if (!ir::uses(cycle, id) || (!asked && !kept)) continue;
+    if (!mentions.used[id] || (!asked && !kept)) continue;
     const bool host = variable.role == ir::Role::Host;
     gibbs::Field field{id,
                        host ? names.fresh(variable.name) : names.of(id),
@@ -301,16 +313,17 @@ gibbs::Folder folderOf(const CycleFolder& folder, LoweredCycle& lowered,
   }
   for (const gibbs::Field& field : out.fields)
     if (field.asked && cycle.variable(field.variable).kind == ir::Kind::WorkOffset &&
-        readsIn(cycle.body, field.variable))
+        mentions.readInBody[field.variable])
       confineSystem(cycle, field, sameMacros);
   return out;
 }
 
 void checkHosts(const ir::Cycle& cycle, Diagnostics& diagnostics) {
+  const Mentions mentions(cycle);
   for (ir::VariableId id = 0; id < cycle.variables.size(); ++id) {
     const ir::Variable& variable = cycle.variable(id);
     if (variable.role != ir::Role::Host) continue;
-    const bool inBody = readsIn(cycle.body, id), inChecks = readsIn(cycle.checks, id);
+    const bool inBody = mentions.readInBody[id], inChecks = !mentions.checks[id].empty();
     if (!inBody && !inChecks) continue;
     if (variable.name == "tool_radius") continue;
     if (!inChecks && (isStart(variable.name) || variable.name == "clearance")) continue;

@@ -86,16 +86,21 @@ bool reads(const ExpressionPtr& value, ir::VariableId id) {
 // Values that no move, touch or decision needs.
 void dropUnread(ir::Cycle& cycle) {
   std::set<ir::VariableId> needed;
-  for (bool grows = true; grows;) {
-    grows = false;
-    for (const ir::CycleStatement& statement : cycle.body) {
-      const auto* assign = std::get_if<ir::Assign>(&statement.node);
-      if (assign != nullptr && !needed.contains(assign->variable)) continue;
-      ir::eachNode(statement, [&](const ir::Expression& node) {
-        const auto* use = std::get_if<ir::VariableUse>(&node.node);
-        if (use != nullptr && needed.insert(use->variable).second) grows = true;
-      });
-    }
+  std::map<ir::VariableId, std::vector<const ir::CycleStatement*>> assigned;
+  std::vector<const ir::CycleStatement*> open;
+  for (const ir::CycleStatement& statement : cycle.body) {
+    const auto* assign = std::get_if<ir::Assign>(&statement.node);
+    (assign == nullptr ? open : assigned[assign->variable]).push_back(&statement);
+  }
+  while (!open.empty()) {
+    const ir::CycleStatement& statement = *open.back();
+    open.pop_back();
+    ir::eachNode(statement, [&](const ir::Expression& node) {
+      const auto* use = std::get_if<ir::VariableUse>(&node.node);
+      if (use == nullptr || !needed.insert(use->variable).second) return;
+      const auto found = assigned.find(use->variable);
+      if (found != assigned.end()) open.insert(open.end(), found->second.begin(), found->second.end());
+    });
   }
   std::erase_if(cycle.body, [&](const ir::CycleStatement& one) {
     const auto* assign = std::get_if<ir::Assign>(&one.node);
@@ -249,6 +254,20 @@ private:
     return end_;
   }
 
+  // A place that many moves add up to is a variable: written out in each of them they were long lines.
+  void keepShort(std::size_t i, const ir::Origin& from) {
+    constexpr std::size_t kMostReads = 12;
+    constexpr const char* kNames[] = {"so_far_x", "so_far_y", "so_far_z"};
+    std::size_t reads = 0;
+    ir::eachNode(here_[i], [&](const ir::Expression& node) {
+      reads += std::holds_alternative<ir::VariableUse>(node.node) ? 1 : 0;
+    });
+    if (reads <= kMostReads) return;
+    const ir::VariableId own = made(kNames[i], ir::Kind::Length);
+    text_.assign(text_.names().of(own), here_[i], from);
+    here_[i] = ir::variable(own);
+  }
+
   // The variable that holds the place along an axis where ways meet.
   ir::VariableId place(std::size_t i) {
     constexpr const char* kNames[] = {"at_x", "at_y", "at_z"};
@@ -380,6 +399,9 @@ private:
       if (!ir::equal(to[i], here_[i])) moved.push_back(i);
     }
     here_ = to;
+    for (const std::size_t i : moved)
+      keepShort(i, from);
+    to = here_;
     if (moved.size() == 1) feed(moved.front(), to[moved.front()], from);
     if (moved.size() < 2) return;
     std::string line = "add_custom_drill_cycle_path feed";
