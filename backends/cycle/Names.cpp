@@ -146,8 +146,9 @@ std::string typeOf(ir::Kind kind) {
 
 std::string State::fresh(const std::string& base) {
   std::string out = base;
-  for (int i = 2; !taken.insert(out).second; ++i)
-    out = base + "_" + std::to_string(i);
+  int& next = nextOf.emplace(base, 2).first->second;
+  while (!taken.insert(out).second)
+    out = base + "_" + std::to_string(next++);
   return out;
 }
 

@@ -43,6 +43,7 @@ struct State {
   std::set<std::string> noted;
 
   std::set<std::string> taken;                 // names
+  std::map<std::string, int> nextOf;           // the number that fresh() tries next, by the name
   std::map<ir::VariableId, std::string> names; // of all variables that are read
   std::map<ir::VariableId, double> shifts;     // of work offsets
   // Of parameters that are a choice of names: the names, of 1, 2, ..

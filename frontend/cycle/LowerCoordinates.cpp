@@ -7,6 +7,7 @@
 #include "ir/Walk.h"
 #include "support/messages/Cycle.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace dotek::frontend::cycle {
@@ -132,6 +133,36 @@ bool meet(Known& into, const Known& other) {
   return changed;
 }
 
+// Variables that a coordinate may reach: of the others nothing has to be known.
+std::vector<bool> followed(const ir::Cycle& cycle, const std::map<ir::VariableId, ir::Axis>& places) {
+  std::vector<std::vector<ir::VariableId>> into(cycle.variables.size()); // that are assigned from it
+  std::vector<bool> out(cycle.variables.size());
+  std::vector<ir::VariableId> open;
+  const auto add = [&](ir::VariableId id) {
+    if (id >= out.size() || out[id]) return;
+    out[id] = true;
+    open.push_back(id);
+  };
+  for (const ir::CycleStatement& statement : cycle.body) {
+    const auto* assign = std::get_if<ir::Assign>(&statement.node);
+    if (assign == nullptr) continue;
+    if (places.contains(assign->variable)) add(assign->variable);
+    if (assign->value == nullptr) continue;
+    ir::eachNode(assign->value, [&](const ir::Expression& node) {
+      if (std::holds_alternative<ir::MeasuredResult>(node.node)) add(assign->variable);
+      const auto* use = std::get_if<ir::VariableUse>(&node.node);
+      if (use != nullptr && use->variable < into.size()) into[use->variable].push_back(assign->variable);
+    });
+  }
+  while (!open.empty()) {
+    const ir::VariableId id = open.back();
+    open.pop_back();
+    for (const ir::VariableId next : into[id])
+      add(next);
+  }
+  return out;
+}
+
 } // namespace
 
 std::vector<std::array<bool, 3>> Lowering::shiftedBefore(const std::vector<ir::CycleStatement>& list) const {
@@ -161,9 +192,13 @@ void Lowering::warnMixed() {
   bool sets = false;
   for (const ir::CycleStatement& statement : list)
     sets = sets || setBy(statement) != Axes{};
-  if (!sets || list.size() * cycle_.variables.size() > kMostWork) return;
+  if (!sets) return;
+  const std::vector<bool> follows = followed(cycle_, places_);
+  const auto variables = static_cast<std::size_t>(std::count(follows.begin(), follows.end(), true));
+  if (list.size() * variables > kMostWork) return;
   const auto after = [&](std::size_t at, std::size_t, Known fact) {
-    if (const auto* assign = std::get_if<ir::Assign>(&list[at].node)) {
+    if (const auto* assign = std::get_if<ir::Assign>(&list[at].node);
+        assign != nullptr && follows[assign->variable]) {
       Weights weights = Reader(fact).of(assign->value);
       if (const auto place = places_.find(assign->variable); place != places_.end())
         weights[ir::indexOf(place->second)] = {1, 0, false};
