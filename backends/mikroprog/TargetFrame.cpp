@@ -111,7 +111,7 @@ std::optional<MikroprogTail> takeEnding(verify::Record& ran, const stdlib::Mikro
   return std::nullopt;
 }
 
-double mostRaised(const verify::Record& source, const sim::Point3& zero) {
+double mostRaised(const verify::Record& source, const sim::Point3& zero, double ballRadius) {
   double out = 0;
   for (const verify::Measure& measure : source.measures) {
     const auto datum = std::find_if(measure.datums.begin(), measure.datums.end(),
@@ -119,7 +119,8 @@ double mostRaised(const verify::Record& source, const sim::Point3& zero) {
     if (datum == measure.datums.end()) continue;
     for (std::size_t i = 0; i < std::min(measure.nominal.size(), measure.contacts.size()); ++i) {
       if (measure.nominal[i].direction.z > kDown) continue;
-      const double nominal = measure.contacts[i].point.z - datum->second;
+      // An edge is met beside the lowest point, which counts all the same.
+      const double nominal = measure.contacts[i].centre.z - ballRadius - datum->second;
       out = std::max(out, nominal - (measure.nominal[i].point.z - zero.z));
     }
   }

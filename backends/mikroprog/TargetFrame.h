@@ -33,7 +33,7 @@ std::optional<MikroprogTail> takeEnding(verify::Record& ran, const stdlib::Mikro
 
 // By how much Z counts more than in the source after one of its datums, at most; mm. `zero`: of the active
 // system.
-double mostRaised(const verify::Record& source, const sim::Point3& zero);
+double mostRaised(const verify::Record& source, const sim::Point3& zero, double ballRadius);
 
 // What is wrong with a tail; "": nothing.
 std::string tailFault(const MikroprogTail& tail, const MikroprogRetract& wanted);

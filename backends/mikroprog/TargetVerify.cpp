@@ -211,7 +211,7 @@ private:
     out.least = zero.z + out.z;
     for (const verify::Piece& piece : meant.pieces)
       if (piece.kind != sim::PathKind::Measuring) out.z = std::max(out.z, piece.to.z - zero.z);
-    if (from_.options.datum != "operator") out.z += mostRaised(meant, zero);
+    if (from_.options.datum != "operator") out.z += mostRaised(meant, zero, now.world.probe().ballRadius());
     out.tolerance = kRoundedWord * std::pow(10, -control_->decimals);
     out.feed = now.drawn.hosts.at("return_feed");
     return out;

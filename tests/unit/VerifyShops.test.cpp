@@ -163,6 +163,18 @@ TEST_CASE("verify: Mikroprog searches as far as the call says, and sets a corner
   }
 }
 
+TEST_CASE("verify: a top that Mikroprog meets at an edge leaves the height of its tails") {
+  driver::VerifyOptions options;
+  take({"inspection", "JT.Vice.Corner", "probeOps", "mikroprog", "", "mikroprog-mill", {"Q7", "Q10", "Q13"}},
+       options);
+  options.cases = 60;
+  options.seed = 2;
+  options.jobs = 1;
+  const driver::Outcome outcome = driver::verify(options);
+  const std::string said = renderText(outcome.diagnostics, outcome.sources, 0) + outcome.output;
+  CHECK_MESSAGE(outcome.output.starts_with("AGREES"), said);
+}
+
 TEST_CASE("verify: a height whose travel goes on beyond the surface, as a fragment for another set") {
   const Shop height{"easyprobe", "Brandl.Hoehe.Z", "messen", "fusion", "inspection-plus", "fanuc-0i-md"};
   const std::string good = converted(height);
