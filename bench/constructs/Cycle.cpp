@@ -99,6 +99,24 @@ void addDeclarations(Constructs& to) {
   });
 }
 
+void addConversions(Constructs& to) {
+  const Text sums = [](long n) {
+    return "cycle grows \"A\"\n" +
+           repeated(n, [](long i) { return fmt::format("parameter p{0} : length = 1 mm \"P{0}\"\n", i); }) +
+           "spindle off\n" + repeated(n, [](long i) { return fmt::format("move by x p{}\n", i); });
+  };
+  to.add("parameters of one move each", 300,
+         {"convert", "grows.cycle", "--to", "gibbs", "--probe-macros", "dotek", "--host",
+          "approach_feed=1000", "-d", "out", "--force"},
+         sums);
+  to.everywhere("parameters of one move each", 200, sums);
+  to.checked("touches before a set", 60, [](long n) {
+    return cycle("", repeated(n, [](long i) {
+                       return fmt::format("touch x by 10 mm -> s{0}\nt{0} = s{0} + 1 mm\n", i);
+                     }) + "set G54 x = s0\n");
+  });
+}
+
 void addText(Constructs& to) {
   to.checked("comments", 2000, [](long n) { return cycle("", times(n, "// a comment\n")); });
   to.add("comments", 2000, {"fmt", "grows.cycle"},
@@ -124,6 +142,7 @@ void addCycle(std::vector<Construct>& out) {
   Constructs to(out);
   addStatements(to);
   addDeclarations(to);
+  addConversions(to);
   addText(to);
 }
 

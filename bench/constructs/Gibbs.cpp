@@ -178,6 +178,14 @@ void addGibbs(std::vector<Construct>& out) {
         times(n, " SeqC ' G65 P9023 S'OpFieldData#('G')' X'OpFieldData#('X')' I'OpFieldData#('I') EOL\n") +
         "END\nRETURN\n";
   };
+  const std::vector<std::string> toCycle = {"convert", "--prog", "post.txt", "--to",
+                                            "cycle",   "-o",     "out.cycle"};
+  grown("places in blocks of the Prog (to cycle)", 200, toCycle, [](Folder& f, long n) {
+    f.post = "probe:\nIF CycleType?('a')\n SeqC SpinOff EOL\n" +
+             repeated(n, [](long i) { return fmt::format(" SeqC ' G0 X{}.' EOL\n", i); }) +
+             " SeqC ' G65 P9023 S'OpFieldData#('G')' X'OpFieldData#('X')' I'OpFieldData#('I') EOL\n"
+             "END\nRETURN\n";
+  });
   struct Grown {
     const char* what;
     long size;

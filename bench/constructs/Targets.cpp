@@ -9,16 +9,17 @@ namespace {
 
 struct Cycle {
   std::string moves = "add_custom_drill_cycle_path feed_x, X\n";
-  std::string checks;
+  std::string defines, inputs, checks;
   std::string blocks =
       " SeqC ' G65 P9023 S'OpFieldData#('G')' X'OpFieldData#('X')' I'OpFieldData#('I') EOL\n";
 };
 
 Input files(const Cycle& cycle, std::vector<std::string> arguments) {
-  return {{{"a/DefineData.txt", "X = 12\nI = 0\nG = 55\n"},
+  return {{{"a/DefineData.txt", "X = 12\nI = 0\nG = 55\n" + cycle.defines},
            {"a/CycleData.dlg",
             "dialog \"A\", 40, 40, 420, 290\ninput 90, 50, 70, 24, G, G\ninput 90, 80, 70, 24, X, X\ninput "
-            "90, 110, 70, 24, I, I\ncancel 230, 230, 80, 28\nok 130, 230, 80, 28\n"},
+            "90, 110, 70, 24, I, I\n" +
+                cycle.inputs + "cancel 230, 230, 80, 28\nok 130, 230, 80, 28\n"},
            {"a/CycleData.mac", ":ask\ndialog \"CycleData.dlg\"\nwrong = 0\nif G < 54 then wrong = 1\nif G > "
                                "59 then wrong = 1\nif abs(X) < 4 then wrong = 2\n" +
                                    cycle.checks + "if wrong > 0 then goto ask\n"},
@@ -60,11 +61,30 @@ void addTargets(std::vector<Construct>& out) {
     c.blocks += repeated(n, [](long i) { return fmt::format(" SeqC ' (NOTE {})' EOL\n", i); });
   };
   const auto measures = [](Cycle& c, long n) { c.blocks = times(n, c.blocks); };
+  const auto fields = [](Cycle& c, long n) {
+    c.defines = repeated(n, [](long i) { return fmt::format("V{0} = {0}\n", i); });
+  };
+  const auto inputs = [](Cycle& c, long n) {
+    c.defines = repeated(n, [](long i) { return fmt::format("V{0} = {0}\n", i); });
+    c.inputs = repeated(
+        n, [](long i) { return fmt::format("input 90, {}, 70, 24, V{}, V{}\n", 140 + 30 * i, i, i); });
+  };
+  const auto used = [](Cycle& c, long n) {
+    c.defines = repeated(n, [](long i) { return fmt::format("V{0} = {0}\n", i); });
+    c.inputs = repeated(
+        n, [](long i) { return fmt::format("input 90, {}, 70, 24, V{}, V{}\n", 140 + 30 * i, i, i); });
+    c.checks = repeated(n, [](long i) { return fmt::format("if V{} > {} then wrong = 3\n", i, 900 - i); });
+  };
   for (const Target& target : targets) {
     for (const Grown& grown : {Grown{"checks", 110, checks},
+                               {"fields that nothing reads", 40, fields},
+                               {"inputs that nothing reads", 40, inputs},
+                               {"inputs that a check reads each", 20, used},
                                {"protected moves", 20, moves},
                                {"comments", 50, comments},
                                {"measurements", 10, measures}}) {
+      // A call of Fanuc hands over 21 values.
+      if (grown.change == +used && std::string_view(target.name) == "fanuc") continue;
       for (const bool verify : {false, true}) {
         std::vector<std::string> arguments = {verify ? "verify" : "convert"};
         arguments.insert(arguments.end(), source.begin(), source.end());
