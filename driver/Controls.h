@@ -10,7 +10,7 @@ namespace dotek::driver {
 // for it, unless the target has controls of its own. A flag comes before it.
 void takeControls(targets::TranslationOptions& options, project::Session& session);
 
-// Codes that switch the probe, for programs, cycle files and folders without a Prog: flags, then the job, then
+// Codes that switch the probe, for programs, cycle files and folders without a Prog: flags, the job, then the
 // dotek.toml of the inputs. What is read with a Prog takes those of its folder by itself.
 void takeProbeCodes(targets::TranslationOptions& options, project::Session& session);
 

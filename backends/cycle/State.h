@@ -53,8 +53,8 @@ struct State {
   std::array<std::string, 3> at;
   // What the results of the last measurement are in the cycle.
   std::map<ir::ResultName, std::string> measured;
-  bool joined = false; // ways have met, after which what was measured last is not known
-  std::map<std::uint32_t, std::string> kept;               // results by the variable of the source
+  bool joined = false;                       // ways have met, after which what was measured last is not known
+  std::map<std::uint32_t, std::string> kept; // results by the variable of the source
   std::vector<std::pair<std::string, ir::Kind>> results;   // in their order
   std::map<std::string, std::string> resultTitles;         // by name
   std::map<std::pair<int, double>, std::string> constants; // named numbers, by kind

@@ -40,10 +40,14 @@ void MacroBlocks::join(std::size_t label) {
     const auto facts = ir::factsBefore(
         body, Lasts{nullptr},
         [&](std::size_t at, std::size_t, const Lasts& before) -> Lasts {
-          const auto& node = body[at].node;
-          if (std::holds_alternative<ir::Measure>(node) || std::holds_alternative<ir::CallCycle>(node))
-            return {&body[at]};
-          return overwritesResults(body[at]) ? Lasts{nullptr} : before;
+          return ir::match(
+              body[at],
+              [&](const ir::OneOf<ir::Measure, ir::CallCycle> auto&) -> Lasts { return {&body[at]}; },
+              [&](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Move, ir::ProbePower,
+                                  ir::Comment, ir::Assign, ir::Return, ir::Spindle, ir::Coolant, ir::SetMode,
+                                  ir::Dwell, ir::Stop, ir::Alarm, ir::OpaqueBlock> auto&) -> Lasts {
+                return overwritesResults(body[at]) ? Lasts{nullptr} : before;
+              });
         },
         [](Lasts& into, const Lasts& other) {
           const std::size_t before = into.size();

@@ -83,7 +83,7 @@ TEST_CASE("verify and convert: the codes that switch the probe of a program come
   CHECK(runDotek(verify, folder.path()).out.find("UNDECIDED") != std::string::npos);
   folder.write("dotek.toml", "schema = 1\nprobe_on = \"M71\"\nprobe_off = \"M72\"\n");
   const CommandResult known = runDotek(verify, folder.path());
-  CHECK_MESSAGE(known.out.find("AGREES: 20 of 20") != std::string::npos, known.out + known.err);
+  CHECK_MESSAGE(known.out.find("AGREES: 20 of 20") != std::string::npos, known.out << known.err);
   // A flag is before the file.
   std::vector<std::string> other = verify;
   other.insert(other.end(), {"--probe-on", "M73"});
