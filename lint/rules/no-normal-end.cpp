@@ -53,20 +53,25 @@ void check(const NcProgram& nc, Report& report) {
   const std::vector<bool> reached = ir::reachable(body, nc.flow());
   bool ends = false;
   bool alarms = false;
-  // A called program may come back at a number that no jump of this one leads to.
-  bool elsewhere = false, otherEnd = false;
+  bool otherEnd = false;
   const ir::ProgramStatement* past = nullptr;
   for (std::size_t i = 0; i < body.size(); ++i) {
     if (!reached[i]) {
       otherEnd = otherEnd || endsNormally(body[i]);
       continue;
     }
-    elsewhere = elsewhere || mayReturnElsewhere(body[i], nc.project);
     ends = ends || endsNormally(body[i]);
     alarms = alarms || std::holds_alternative<ir::Raise>(body[i].node);
     if (!endsNormally(body[i]) && std::find(next[i].begin(), next[i].end(), body.size()) != next[i].end())
       past = &body[i];
   }
+  // A called program may come back at a number that no jump of this one leads to. All programs are looked at
+  // for it, so only where it decides.
+  const auto mayComeElsewhere = [&] {
+    for (std::size_t i = 0; i < body.size(); ++i)
+      if (reached[i] && mayReturnElsewhere(body[i], nc.project)) return true;
+    return false;
+  };
   if (past != nullptr && (ends || alarms || nc.file.markLast))
     report.at(
         past->origin.range(),
@@ -79,7 +84,7 @@ void check(const NcProgram& nc, Report& report) {
         "has "
         "opened: a transfer that broke off leaves this; the control waits for more, or stops with an alarm, "
         "with the spindle and the modes as they are; send the program again");
-  else if (!ends && alarms && !(elsewhere && otherEnd))
+  else if (!ends && alarms && !(otherEnd && mayComeElsewhere()))
     report.at(
         program.range,
         "each path through the program ends in an alarm, none in M30 or M99; the end before the alarms is "
