@@ -149,8 +149,8 @@ private:
 
   const stdlib::MacroSet* sourceSet_ = nullptr;
   mutable std::optional<verify::Stand> sourceStand_; // told what the posted program guards, before each run
-  std::unique_ptr<Verification> target_;   // nullptr: no translation
-  std::unique_ptr<NominalFields> nominal_; // where target_ wants it
+  std::unique_ptr<Verification> target_;             // nullptr: no translation
+  std::unique_ptr<NominalFields> nominal_;           // where target_ wants it
 };
 
 } // namespace dotek::targets

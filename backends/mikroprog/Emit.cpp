@@ -56,10 +56,8 @@ public:
     bool spindle = false, coolant = false; // the first switch was seen
     std::string_view after;                // what the source has before it
     for (std::size_t i = 0; i < list.size() && !s_.failed; ++i) {
-      if (ir::probes(list[i]))
-        after = "probe move";
-      else if (std::holds_alternative<ir::Move>(list[i].node) && after.empty())
-        after = "move";
+      if (ir::probes(list[i])) after = "probe move";
+      if (after.empty() && std::holds_alternative<ir::Move>(list[i].node)) after = "move";
       const std::optional<Switch> found = switchOf(list[i]);
       if (!found || std::exchange(found->turns ? spindle : coolant, true) || !found->off) continue;
       (found->turns ? spindleOff_ : coolantOff_) = true;

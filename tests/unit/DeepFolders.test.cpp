@@ -6,12 +6,12 @@
 
 using namespace dotek::tests;
 
-TEST_CASE("lint finds a program below 800 folders, one in another") {
+TEST_CASE("lint finds a program below 190 folders, one in another") {
   const TestFolder folder("dotek-deep");
   std::string path;
-  for (int level = 0; level < 800; ++level) {
+  for (int level = 0; level < 190; ++level) {
     path += "d/";
-    if (level % 100 == 0) folder.write(path + "sound.nc", "%\nO1\n#100=#5061\nM99\n%\n");
+    if (level % 50 == 0) folder.write(path + "sound.nc", "%\nO1\n#100=#5061\nM99\n%\n");
   }
   folder.write(path + "bad.nc", "%\nO2\nGOTO 7\nM99\n%\n");
   const CommandResult found = runDotek({"lint", ".", "--control", "fanuc-31i-b"}, folder.path());

@@ -93,7 +93,7 @@ TEST_CASE("fanuc blocks: codes come from the control's table") {
   const Emission out = Target().emit(cycle.cycle);
   checkProgram(out);
   CHECK(out.body() == Lines{"S1000 M3", "G4 X0.5", "M1"});
-  CHECK(out.has("(Check it)"));
+  CHECK(out.has("(Check [it])"));
   Maker mist;
   mist.add(ir::Coolant{ir::Coolant::State::Mist});
   CHECK(Target("easyprobe", "fanuc-6m").emit(mist.cycle).codes() == std::set<std::string>{"no-code"});
@@ -147,7 +147,7 @@ TEST_CASE("fanuc blocks: a block without a meaning is copied to a control that h
   block.words[1].value = ir::constant(10, {}, "10");
   cycle.add(block);
   CHECK(Target("easyprobe", "fanuc-31i-b").emit(cycle.cycle).codes() ==
-        std::set<std::string>{"opaque-block-refused"});
+        std::set<std::string>{"data-input-refused"});
 }
 
 TEST_CASE("fanuc blocks: jumps, loops and the end") {
@@ -236,13 +236,13 @@ TEST_CASE("fanuc alarms: numbers of the source first, and not too many") {
   CHECK(target.emit(cycle.cycle).codes() == std::set<std::string>{"too-many-alarms"});
 }
 
-TEST_CASE("fanuc comments: ASCII without brackets") {
+TEST_CASE("fanuc comments: ASCII, with square brackets for round ones") {
   Maker cycle;
   cycle.add(ir::Comment{"M\xC4\x9B\xC5\x99"
                         "en\xC3\xAD (osa X) 100%"});
   const Emission out = Target().emit(cycle.cycle);
   checkProgram(out);
-  CHECK(out.has("(Mereni osa X 100)"));
+  CHECK(out.has("(Mereni [osa X] 100)"));
   CHECK(out.codes() == std::set<std::string>{"comment-plain"});
   Maker plain;
   plain.add(ir::Comment{"OSA X"});

@@ -214,7 +214,7 @@ TEST_CASE("fanuc: a stop with a message shows it") {
   Target without;
   without.control.variables.message.reset();
   CHECK(without.emit(cycle.cycle).body() == Lines{"M0", "M0"});
-  CHECK(without.emit(cycle.cycle).has("(Look here)"));
+  CHECK(without.emit(cycle.cycle).has("(Look [here])"));
   Maker numbered;
   numbered.add(ir::Stop{false, "Look", 5});
   const Emission kept = Target().emit(numbered.cycle);

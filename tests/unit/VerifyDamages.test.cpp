@@ -167,20 +167,27 @@ TEST_CASE(
 
 TEST_CASE("verify: the replay of a difference keeps planes that are one") {
   const ProcessFolder folder;
-  REQUIRE(folder.run("cp -r " + cycle() + " face && sed -i 's/feed_z, R-plane/feed_z, 0/' face/ToolPath.mac")
+  REQUIRE(folder
+              .run("cp -r " + cycle() +
+                   " face && sed -i 's/feed_z, R-plane/feed_z, 0/; s/feed_z, Z-plane/feed_z, Z-plane*2/' " +
+                   "face/ToolPath.mac")
               .status == 0);
   REQUIRE(folder
               .run("sed \"s/ Z'OpFieldData#('R')'/' ZCP1 '/\" " + (root() / "examples/post.txt").string() +
                    " >face.txt")
               .status == 0);
   const std::string run = "dotek verify face --cycle surface-x --prog face.txt --cases 60 2>&1 | grep -A9 "
-                          "'end position differs' | grep -m1 ";
+                          "'nominal contact differs' | grep -m1 ";
   const ShellResult told = folder.run(run + "'replay: '");
   REQUIRE_MESSAGE(told.status == 0, told.out << told.err);
   const auto valueOf = [&](const std::string& name) {
-    const std::size_t at = told.out.find("--value " + name + "=");
-    return at == std::string::npos ? "" : told.out.substr(at + 9 + name.size(), 6);
+    const std::string flag = "--value " + name + "=";
+    const std::size_t at = told.out.find(flag);
+    return at == std::string::npos
+               ? ""
+               : told.out.substr(at + flag.size(), told.out.find(' ', at + flag.size()) - at - flag.size());
   };
   CHECK(valueOf("clearance") == valueOf("retract"));
+  CHECK(valueOf("clearance") != "0");
   CHECK(!valueOf("clearance").empty());
 }
