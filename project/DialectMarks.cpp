@@ -119,6 +119,7 @@ bool isRealTimeCommand(View body) {
   if (!body.starts_with('$')) return false;
   const View word = body.substr(1, body.find_first_of(" ;\t") - 1);
   constexpr std::array<View, 12> kWords = {"", "$", "H", "X", "I", "G", "C", "#", "N", "SLP", "HX", "HY"};
+  if (word.empty() && trimmedText(body).size() > 1) return false; // `$ ls`, of a shell
   return std::find(kWords.begin(), kWords.end(), word) != kWords.end() || word.starts_with("J=") ||
          word.starts_with("RST=") || word.starts_with("N0=") || word.starts_with("N1=") ||
          (digitsAt(word, 0) > 0 && word.size() > digitsAt(word, 0) && word[digitsAt(word, 0)] == '=');
@@ -385,6 +386,7 @@ constexpr std::array kMarks = {
     Mark{Script, Place::Raw, "=> {", 3},
     Mark{Script, Place::Raw, ") {", 2},
     Mark{Markdown, Place::Begin, "```", 5},
+    Mark{Markdown, Place::Begin, "@@ -", 5}, // a patch
     Mark{Markdown, Place::Begin, "|--", 3},
     Mark{Markdown, Place::Begin, "- **", 3},
     Mark{Markdown, Place::Shape, "#", 2, isHeading},

@@ -37,12 +37,46 @@ bool hasWord(View line, View text) {
   return false;
 }
 
+// Three words in a row, two of them in small letters, outside of comments and quotes: no block of a control.
+bool isProse(View line) {
+  std::size_t words = 0, small = 0;
+  char quote = 0;
+  for (std::size_t at = 0; at < line.size();) {
+    const char c = line[at];
+    if (quote != 0 || c == '"') {
+      quote = quote == 0 ? c : c == quote ? 0 : quote;
+      ++at;
+      continue;
+    }
+    if (c == '(' || c == ';' || c == '{' || c == '!' || line.substr(at).starts_with("//")) return false;
+    if (!isLetter(c)) {
+      if (c != ' ' && c != ',') words = small = 0;
+      ++at;
+      continue;
+    }
+    std::size_t end = at;
+    bool lower = true;
+    for (; end < line.size() && (isLetter(line[end]) || line[end] == '\''); ++end)
+      lower = lower && (line[end] < 'A' || line[end] > 'Z');
+    const bool joins = end < line.size() && View(" ,.:?").find(line[end]) == View::npos;
+    words = joins || end - at < 2 ? 0 : words + 1;
+    small = words == 0 ? 0 : small + (lower ? 1 : 0);
+    if (words >= 3 && small >= 2) return true;
+    at = end;
+  }
+  return false;
+}
+
+constexpr auto kText = static_cast<std::size_t>(Tongue::Markdown);
+
 } // namespace
 
 void Dialects::look(View line) {
   ++line_;
   const std::string folded = upperCase(trimmedText(line));
   if (folded.empty()) return;
+  if (isProse(line)) ++prose_;
+  if (trimmedText(line).ends_with(':')) ++headed_;
   const View text = folded;
   const View raw = withoutBlockNumber(text);
   const std::string coded = withoutComments(text);
@@ -85,7 +119,7 @@ void Dialects::see(const Mark& mark, View line) {
   if (seen.shown.size() > kMostShown) seen.shown.pop_back();
 }
 
-std::size_t Dialects::best() const {
+std::size_t Dialects::strongest() const {
   std::size_t out = 0;
   const auto rank = [&](std::size_t i) {
     return seen_[i].weight >= factsOf(static_cast<Tongue>(i)).least ? seen_[i].weight : 0;
@@ -95,8 +129,21 @@ std::size_t Dialects::best() const {
   return out;
 }
 
+std::size_t Dialects::best() const {
+  const std::size_t out = strongest();
+  return isText(out) ? kText : out;
+}
+
+// Lines of sentences, or lines that end with a colon and nothing else of a control.
+bool Dialects::isText(std::size_t best) const {
+  constexpr int kProse = 2;
+  const Seen& seen = seen_[best];
+  if (certain_ || seen.weight == 0 || !factsOf(static_cast<Tongue>(best)).control) return false;
+  return prose_ * kProse > seen.weight || (seen.strong == 0 && headed_ == seen.lines && headed_ > 0);
+}
+
 int Dialects::weight() const {
-  const std::size_t at = best();
+  const std::size_t at = strongest();
   return seen_[at].weight >= factsOf(static_cast<Tongue>(at)).least ? seen_[at].weight : 0;
 }
 

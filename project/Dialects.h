@@ -40,10 +40,14 @@ private:
     std::vector<Shown> shown; // the lines to name
   };
   void see(const Mark& mark, std::string_view line);
+  std::size_t strongest() const; // by its marks
   std::size_t best() const;
+  bool isText(std::size_t best) const; // of no language, whatever marks of a control are in it
 
   std::array<Seen, kTongues> seen_;
   int line_ = 0;
+  int prose_ = 0;  // lines of sentences
+  int headed_ = 0; // lines that end with a colon
   bool certain_ = false;
 };
 

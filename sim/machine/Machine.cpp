@@ -2,6 +2,7 @@
 
 #include "sim/machine/Axes.h"
 #include "sim/machine/Refusals.h"
+#include "stdlib/AlarmMeaning.h"
 
 #include <algorithm>
 #include <bit>
@@ -364,10 +365,15 @@ bool Machine::raise(Alarm alarm, char letter) {
   if (info == nullptr && !dialect_.numbersAlarms)
     return inconclusive(fmt::format("what the control does then is not known ({})", stdlib::alarmName(alarm)),
                         letter);
-  if (info != nullptr && info->number == 0) return raiseUnnumbered(info->text);
+  if (info == nullptr) {
+    raiseUnnumbered(stdlib::alarmMeaning(alarm));
+    end_.letter = letter;
+    return false;
+  }
+  if (info->number == 0) return raiseUnnumbered(info->text);
   stop(Ending::Alarm);
-  end_.number = info != nullptr ? info->number : 0;
-  end_.text = info != nullptr ? info->text : std::string(stdlib::alarmName(alarm));
+  end_.number = info->number;
+  end_.text = info->text;
   end_.letter = letter;
   end_.stack = stack_;
   if (trace_ != nullptr) trace_->begin("alarm").text(std::to_string(end_.number)).text(end_.text).end();

@@ -265,6 +265,7 @@ std::string pictureSvg(const Picture& picture) {
       "font-family=\"Helvetica, Arial, sans-serif\" font-size=\"12.5\">\n<title>{2}</title>\n",
       px(width), px(height),
       xmlText(picture.result ? picture.result->word + " - " + picture.title : picture.title, 300));
+  out += "<style>@page{margin:10mm}@media print{:root{width:100%;height:auto;max-height:100vh}}</style>\n";
   out += "<defs>\n<pattern id=\"cut\" width=\"7\" height=\"7\" patternUnits=\"userSpaceOnUse\" "
          "patternTransform=\"rotate(45)\"><rect width=\"7\" height=\"7\" fill=\"#edf0f3\"/>"
          "<path d=\"M0 0v7\" stroke=\"#c3cad3\" stroke-width=\"1.6\"/></pattern>\n" +

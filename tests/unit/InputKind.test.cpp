@@ -184,6 +184,22 @@ TEST_CASE("input kind: what Dotek and others write beside programs is none") {
   CHECK(kindOf("This is a letter to the shop.\nPlease check the program and call me.\n", "WEB.NC") == kNone);
 }
 
+TEST_CASE("input kind: text of people is no program of another control") {
+  CHECK(kindOf("# Shop\n\n    $ dotek lint x\n    $ ls\n", "README.md") == kNone);
+  CHECK(kindOf("Notes:\n\nlint:\n  run dotek\nconvert:\n  run it\nend:\n", "n") == kNone);
+  CHECK(kindOf("code-one        warning  LET the probe go down before it moves to the side\n"
+               "code-two        note     RTS is a word of another control, and so is this\n"
+               "LET it be known that nobody reads this list of rules\n"
+               "RTS ends it for all of them, as the last line of it\n",
+               "rules") == kNone);
+  CHECK(kindOf("--- web.nc\n+++ web.nc\n@@ -1,3 +1,3 @@\n %\n-O7310\n+O07310\n G65P9810Z-5.F1000\n", "p") ==
+        kNone);
+  // Programs of other controls with remarks.
+  CHECK(kindOf("; this line says what the program does\nR1=5\nLOOP:\nG1 X=R1\nR1=R1+1\nGOTOB LOOP\nM30\n")
+            .find("Sinumerik") != std::string::npos);
+  CHECK(kindOf("$H\n$X\nG0 X5\n$$\n").find("Grbl") != std::string::npos);
+}
+
 TEST_CASE("input kind: bytes that are no text, and no bytes at all") {
   CHECK(kindOf("") == "none: empty");
   CHECK(kindOf(" \r\n\n") == "none: empty");
