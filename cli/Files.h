@@ -19,10 +19,10 @@ std::string reportPath(const Arguments& arguments, const std::string& input);
 // `path`, or standard output where none is given.
 std::string orStandardOutput(const std::string& path);
 
-// What the command will write, standard output where it prints there. Files of `-d` have names later.
 // false with a diagnostic: the inputs shall be changed in place, and one is a pipe or a device.
 bool canChangeInputs(const Arguments& arguments, Diagnostics& diagnostics);
 
+// What the command will write, standard output where it prints there. Files of `-d` have names later.
 std::vector<OutputName> outputsOf(const Arguments& arguments);
 
 // What it names to be read, and the data files below `--data`.

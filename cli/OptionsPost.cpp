@@ -32,8 +32,12 @@ void addDump(CLI::App& app, Raw& raw) {
 // What a stage does not read may name anything, and nothing would say that it is wrong.
 void checkDump(const Raw& raw) {
   if (raw.stage == "ir") return;
-  const bool values = raw.stage != "path";
-  const std::pair<const char*, bool> unread[] = {
+  struct Flag {
+    const char* name;
+    bool given;
+    bool ofPath = false; // read by `--stage path`, too
+  };
+  const Flag flags[] = {
       {"--control", !raw.control.empty()},
       {"--prog", !raw.prog.empty()},
       {"--form", !raw.form.empty()},
@@ -42,18 +46,15 @@ void checkDump(const Raw& raw) {
       {"--job", !raw.job.empty()},
       {"--field", !raw.field.empty()},
       {"--recover", raw.recover},
-      {"--set", values && !raw.set.empty()},
-      {"--host", values && !raw.host.empty()},
-      {"--clearance", values && !raw.clearance.empty()},
-      {"--assume", values && !raw.assume.empty()},
+      {"--set", !raw.set.empty(), true},
+      {"--host", !raw.host.empty(), true},
+      {"--clearance", !raw.clearance.empty(), true},
+      {"--assume", !raw.assume.empty(), true},
   };
-  for (std::size_t i = 0; const auto& [flag, given] : unread) {
-    constexpr std::size_t kOfIr = 8; // the first of them
-    const bool ofIr = i++ < kOfIr;
-    if (given)
-      throw UsageError(std::string(flag) + " changes nothing of --stage " + raw.stage + "; it is read by " +
-                       (ofIr ? "--stage ir" : "--stage path and --stage ir"));
-  }
+  for (const Flag& flag : flags)
+    if (flag.given && !(flag.ofPath && raw.stage == "path"))
+      throw UsageError(std::string(flag.name) + " changes nothing of --stage " + raw.stage +
+                       "; it is read by " + (flag.ofPath ? "--stage path and --stage ir" : "--stage ir"));
 }
 
 } // namespace dotek::cli

@@ -26,10 +26,10 @@ struct RenumberCommandOptions {
   std::string control; // whose greatest number counts; "": of dotek.toml, else 99999
 };
 
+// An outline of no file, as JSON.
+inline constexpr std::string_view kEmptyOutline = "[\n]\n";
 // Programs, their N numbers, calls, jumps and variables. What of a file cannot be read is reported, and the
 // rest is shown.
-// As JSON, of no file.
-constexpr std::string_view kEmptyOutline = "[\n]\n";
 Outcome outline(const OutlineOptions& options);
 // `files`: the programs with new numbers, by the name of the input; `inputs`: those that change. A file with
 // an error, or with a jump that nobody can follow, gives none.

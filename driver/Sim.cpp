@@ -367,7 +367,6 @@ private:
     return finish(machine, &run);
   }
 
-  // A program of plain blocks: block by block, in constant memory.
   // Why the text counts as one for a lathe; "": it does not.
   static std::string latheOf(LineChunks& chunks) {
     constexpr std::size_t kMostWithout = 5000; // blocks: what shows it is among the first ones
@@ -382,6 +381,7 @@ private:
     return sign ? sim::latheText(sign->at, sign->what) : "";
   }
 
+  // A program of plain blocks: block by block, in constant memory.
   Outcome runStreamed(LineChunks& chunks, sim::Machine& machine, const std::string& lathe) {
     std::optional<sim::Trace> trace;
     if (options_.trace) machine.setTrace(&trace.emplace(options_.trace));

@@ -5,25 +5,14 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <limits>
 
 namespace dotek::lint {
 namespace {
 
 ir::NcWords numbersOf(const macrob::Words& words) {
   ir::NcWords out;
-  for (const frontend::nc::Word& word : words.words) {
-    if (word.address < 'A' || word.address > 'Z') continue;
-    const double value = macrob::literal(word).value_or(std::numeric_limits<double>::quiet_NaN());
-    const bool code = value >= 0 && value < 1e5;
-    if (word.address == 'G')
-      out.addG(code ? static_cast<std::uint32_t>(std::lround(value * 10)) : ir::NcWords::kNoCode);
-    else if (word.address == 'M')
-      out.addM(code ? static_cast<std::uint32_t>(std::lround(value)) : ir::NcWords::kNoCode);
-    else
-      out.set(word.address, value);
-  }
+  for (const frontend::nc::Word& word : words.words)
+    stdlib::addWord(out, word.address, macrob::literal(word));
   return out;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace dotek::stdlib {
 namespace {
@@ -56,6 +57,17 @@ std::string_view likelyWork(const ir::NcWords& block) {
 }
 
 } // namespace
+
+void addWord(ir::NcWords& block, char address, std::optional<double> value) {
+  if (address < 'A' || address > 'Z') return;
+  const bool code = value && *value >= 0 && *value < 1e5;
+  if (address == 'G')
+    block.addG(code ? static_cast<std::uint32_t>(std::lround(*value * 10)) : ir::NcWords::kNoCode);
+  else if (address == 'M')
+    block.addM(code ? static_cast<std::uint32_t>(std::lround(*value)) : ir::NcWords::kNoCode);
+  else
+    block.set(address, value.value_or(std::numeric_limits<double>::quiet_NaN()));
+}
 
 void LatheSigns::look(const ir::NcWords& block, std::size_t at) {
   mill_ = mill_ || isOfMills(block);

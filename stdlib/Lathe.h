@@ -9,6 +9,9 @@
 
 namespace dotek::stdlib {
 
+// Puts a word of a block in. `value`: nothing where it is computed; then it is any number that is none (NaN).
+void addWord(ir::NcWords& block, char address, std::optional<double> value);
+
 // What the blocks of a text show, each looked at once, in any order.
 class LatheSigns {
 public:
@@ -17,7 +20,7 @@ public:
     std::size_t at = 0;    // as it was given
   };
 
-  // `at`: what the block is to be found by. A word whose value is computed is any number that is none (NaN).
+  // `at`: what the block is to be found by.
   void look(const ir::NcWords& block, std::size_t at);
   // The text is that of a mill, whatever follows.
   bool isOfMill() const { return mill_; }

@@ -43,8 +43,8 @@ bool takesNoOther(ir::Kind kind, const std::vector<double>& offered);
 // Values that the list of the field does not offer: above it, below it, and between two that it offers. None:
 // it takes others.
 std::vector<double> besideList(const verify::DrawField& field);
-// The first value of the case that the list of its field does not offer, as the alarm
-// says it; "": there is none.
+// The first value of the case that the list of its field does not offer, as the alarm says it; "": there is
+// none.
 std::string whyNotOffered(const std::vector<verify::DrawField>& fields, const verify::Case& drawn);
 // The checks of the cycle reject what a list does not offer, as its dialog does; that of a work offset which
 // offers all six systems is left to what is asked of each. The body has to read the parameter.

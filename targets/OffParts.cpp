@@ -192,4 +192,20 @@ std::vector<verify::Difference> compareOffParts(const TargetCase& now, const Off
   return found;
 }
 
+void addOffParts(const TargetCase& now, const OffRules& rules,
+                 const std::function<TargetRun(const verify::Record& source, sim::World& world)>& run,
+                 TargetRun& out) {
+  std::vector<TargetDifference> last; // of the run that is compared
+  std::vector<verify::Difference> found =
+      compareOffParts(now, rules, [&](const verify::Record& source, sim::World& world) {
+        last = run(source, world).differences;
+        std::vector<verify::Difference> differences;
+        for (const TargetDifference& one : last)
+          differences.push_back(one.difference);
+        return differences;
+      });
+  for (std::size_t i = 0; i < found.size(); ++i)
+    out.differences.push_back({std::move(found[i]), last[i].line, ""});
+}
+
 } // namespace dotek::targets

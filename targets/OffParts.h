@@ -27,4 +27,9 @@ std::vector<verify::Difference> compareOffParts(
     const std::function<std::vector<verify::Difference>(const verify::Record& source, sim::World& world)>&
         compare);
 
+// The same into `out`, where each run of the translation has its differences by itself.
+void addOffParts(const TargetCase& now, const OffRules& rules,
+                 const std::function<TargetRun(const verify::Record& source, sim::World& world)>& run,
+                 TargetRun& out);
+
 } // namespace dotek::targets

@@ -190,21 +190,14 @@ private:
 
   // How far another search goes is its own business.
   void compareOff(const sim::CycleInputs& inputs, const TargetCase& now, TargetRun& out) {
-    std::vector<TargetDifference> lines; // of the differences
-    const auto compare = [&](const verify::Record& meant, sim::World& world) {
+    const auto run = [&](const verify::Record& meant, sim::World& world) {
       TargetRun ran;
       TargetCase there{.drawn = now.drawn, .entry = now.entry, .stores = now.stores, .world = world};
       there.source = &meant;
       compareRecords(stand_.run(cycle_, inputs, world, now.entry, now.stores), there, ran);
-      std::vector<verify::Difference> found;
-      for (const TargetDifference& one : ran.differences)
-        found.push_back(one.difference);
-      lines = std::move(ran.differences);
-      return found;
+      return ran;
     };
-    std::vector<verify::Difference> found = compareOffParts(now, {0, false}, compare);
-    for (std::size_t i = 0; i < found.size(); ++i)
-      out.differences.push_back({std::move(found[i]), lines[i].line, ""});
+    addOffParts(now, {0, false}, run, out);
   }
 
   void compareRecords(const verify::Record& record, const TargetCase& now, TargetRun& out) const {

@@ -206,24 +206,16 @@ private:
   // How far another set searches is its own business.
   void compareOff(const verify::Case& values, const TargetCase& now, TargetRun& out) {
     const bool same = sourceSet_ == set_ && !from_.plan.cycleFile;
-    std::vector<TargetDifference> lines; // of the differences
-    const auto compare = [&](const verify::Record& meant, sim::World& world) {
+    const auto run = [&](const verify::Record& meant, sim::World& world) {
       TargetRun off;
       TargetCase there{.drawn = now.drawn, .entry = now.entry, .stores = now.stores, .world = world};
       there.source = &meant;
       const CaseRunner::Performed ran =
           runner_->perform(values, world, now.entry, now.stores, verify::Stand::Way::Run);
       if (ran.record) compareRecords(ran, there, off);
-      std::vector<verify::Difference> found;
-      for (const TargetDifference& one : off.differences)
-        found.push_back(one.difference);
-      lines = std::move(off.differences);
-      return found;
+      return off;
     };
-    std::vector<verify::Difference> found =
-        compareOffParts(now, {same ? std::nullopt : std::optional(0.0), false}, compare);
-    for (std::size_t i = 0; i < found.size(); ++i)
-      out.differences.push_back({std::move(found[i]), lines[i].line, ""});
+    addOffParts(now, {same ? std::nullopt : std::optional(0.0), false}, run, out);
   }
 
   void compareRecords(const CaseRunner::Performed& ran, const TargetCase& now, TargetRun& out) const {

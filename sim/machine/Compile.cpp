@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <limits>
 
 namespace dotek::sim {
 
@@ -25,15 +24,8 @@ namespace {
 ir::NcWords numbersOf(const ir::NcBlock& block) {
   ir::NcWords out;
   for (const ir::Word& word : block.words) {
-    if (word.address < 'A' || word.address > 'Z') continue;
     const double* value = ir::constantValue(word.value);
-    const bool code = value != nullptr && *value >= 0 && *value < 1e5;
-    if (word.address == 'G')
-      out.addG(code ? static_cast<std::uint32_t>(std::lround(*value * 10)) : ir::NcWords::kNoCode);
-    else if (word.address == 'M')
-      out.addM(code ? static_cast<std::uint32_t>(std::lround(*value)) : ir::NcWords::kNoCode);
-    else
-      out.set(word.address, value != nullptr ? *value : std::numeric_limits<double>::quiet_NaN());
+    stdlib::addWord(out, word.address, value == nullptr ? std::nullopt : std::optional(*value));
   }
   return out;
 }
