@@ -32,7 +32,8 @@ public:
       : dialog_(dialog), sources_(sources), fields_(fields), labels_(inputLabels(dialog)) {}
 
   std::vector<std::string> run(const ChoiceLists& offered, const ChoiceLists& lists) {
-    for (const auto& [name, field] : fields_) {
+    for (const auto& [name, own] : fields_) {
+      const gibbs::Field& field = own; // clang 14 takes no binding into a lambda
       const auto label = std::find_if(labels_.begin(), labels_.end(), [&](const auto& one) {
         return foldCase(one.variable.text) == foldCase(field.name);
       });
