@@ -41,6 +41,7 @@ void addMacroB(std::vector<Construct>& out);
 void addGibbs(std::vector<Construct>& out);
 void addComPost(std::vector<Construct>& out);
 void addMikroprog(std::vector<Construct>& out);
+void addFusion(std::vector<Construct>& out);
 void addCycle(std::vector<Construct>& out);
 void addData(std::vector<Construct>& out);
 void addTargets(std::vector<Construct>& out);

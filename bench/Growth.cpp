@@ -80,6 +80,7 @@ std::vector<Construct> allConstructs() {
   addGibbs(out);
   addComPost(out);
   addMikroprog(out);
+  addFusion(out);
   addCycle(out);
   addData(out);
   addTargets(out);

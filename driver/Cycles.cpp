@@ -78,10 +78,15 @@ std::optional<Layout> programLayout(const std::string& path, Session& session) {
   const auto id = session.read(path, Encoding::Cp1250);
   if (!id) return std::nullopt;
   SourceMap& sources = session.sources();
-  const macrob::File file =
-      macrob::parse(*id, sources, session.limits(), session.diagnostics(), textOf(*id, session));
-  if (file.hasErrors) return std::nullopt; // the reader has said why
-  auto text = macrob::format(file, sources);
+  std::optional<std::string> text;
+  std::string meaning;
+  { // one tree at a time: they are many times as large as their text
+    const macrob::File file =
+        macrob::parse(*id, sources, session.limits(), session.diagnostics(), textOf(*id, session));
+    if (file.hasErrors) return std::nullopt; // the reader has said why
+    text = macrob::format(file, sources);
+    if (text) meaning = macrob::dumpAst(file, sources, false);
+  }
   if (!text) {
     session.diagnostics().report<diag::NotLaidOut>({*id, 0, 0}, path, "holds text that is no block",
                                                    "take it out, or put it into comments");
@@ -93,7 +98,7 @@ std::optional<Layout> programLayout(const std::string& path, Session& session) {
   const FileId again = sources.add(SourceFile(before.name(), *text, before.encoding()));
   Diagnostics unheard;
   const macrob::File after = macrob::parse(again, sources, session.limits(), unheard, macrob::Text::Program);
-  if (macrob::dumpAst(file, sources, false) != macrob::dumpAst(after, sources, false)) {
+  if (meaning != macrob::dumpAst(after, sources, false)) {
     session.diagnostics().report<diag::NotLaidOut>({*id, 0, 0}, path, "would read otherwise afterwards",
                                                    "this is a defect of Dotek; leave the file as it is");
     return std::nullopt;

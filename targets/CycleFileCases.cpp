@@ -259,6 +259,7 @@ std::unique_ptr<CycleFileRunner::Played> CycleFileRunner::play(verify::Case draw
   verify::Entry entry = entryOf(out->drawn);
   putTools(toolEntries(plan_, out->drawn), keepsWear(inputs_->control), entry);
   const sim::Point3 zero = entry.zeros[out->drawn.system - 54];
+  std::size_t tooMany = 0; // surfaces, more than a part can have
   verify::CycleStand::Rehearsal rehearsal = stand_->rehearse(cycle(), inputsOf(out->drawn), probe, entry);
   if (plan_.part) {
     out->part = plan_.part;
@@ -272,6 +273,7 @@ std::unique_ptr<CycleFileRunner::Played> CycleFileRunner::play(verify::Case draw
     out->part =
         verify::partOf(surfaces, probe.ballRadius(), std::max(probe.ballRadius(), kReach), out->drawn.error);
     out->partMade = out->part.has_value();
+    if (!out->partMade) tooMany = surfaces.size();
   }
   if (!out->part) out->part = emptyPart(zero);
   sim::World world(*out->part, probe, limits());
@@ -282,6 +284,13 @@ std::unique_ptr<CycleFileRunner::Played> CycleFileRunner::play(verify::Case draw
   if (out->record.ending == verify::Ending::Finished && rehearsal.surfaces.empty()) out->why.clear();
   out->atOnce = touchesAtOnce(out->record, probe.ballRadius(), out->whyAt);
   if (out->atOnce) out->why = "the ball touches where a touch begins";
+  if (tooMany > 0 && !out->why.empty()) {
+    out->why =
+        fmt::format("no part can be made of the {} surfaces that it touches: a part has at most {} shapes; "
+                    "`--part FILE` gives one",
+                    tooMany, sim::PartBuilder::kMostShapes);
+    out->whyAt = {};
+  }
   return out;
 }
 

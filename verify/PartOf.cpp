@@ -63,6 +63,10 @@ public:
     takeCircles(rest);
     std::vector<Pair> pairs = takePairs(rest);
     takeRounds(pairs, rest);
+    if (pairs.size() + rest.size() > PartBuilder::kMostShapes) {
+      tooMany_ = true; // to fit each of them beside all others would be in vain
+      return;
+    }
     addBores();
     for (const Pair& pair : pairs)
       addPair(pair);
@@ -71,6 +75,7 @@ public:
   }
 
   std::optional<Part> finish() {
+    if (tooMany_) return std::nullopt;
     std::string fault;
     const std::unique_ptr<Part> part = builder_.finish(fault);
     if (!part) return std::nullopt;
@@ -296,6 +301,7 @@ private:
   const std::vector<Touch>& all_;
   double radius_, beside_, behind_;
   PartBuilder builder_;
+  bool tooMany_ = false;
 };
 
 } // namespace

@@ -3,6 +3,8 @@
 
 #include <map>
 #include <set>
+#include <string_view>
+#include <vector>
 
 namespace dotek::lint::rule {
 namespace {
@@ -27,14 +29,12 @@ void check(const Project& project, Report& report) {
       const auto at = first.try_emplace(&symbol, use.name).first;
       if (use.name->begin < at->second->begin) at->second = use.name;
     }
+    std::vector<std::string_view> offered; // those of the post first
+    for (const auto& [one, other] : post.scopes.scopes.front().names)
+      if (other->kind != fusion::Symbol::Kind::Global) offered.push_back(one);
+    offered.insert(offered.end(), post.names->all.begin(), post.names->all.end());
     for (const auto& [symbol, name] : first) {
-      const std::string own(symbol->name);
-      NearestName nearest(own);
-      for (const std::string& one : post.names->all)
-        nearest.offer(one);
-      for (const auto& [one, other] : post.scopes.scopes.front().names)
-        if (other->kind != fusion::Symbol::Kind::Global) nearest.offer(std::string(one));
-      const std::string near = nearest.result();
+      const std::string near = nearestName(symbol->name, offered);
       report.at(post.tree.range(*name), "`{}` is defined nowhere: the post stops where it comes here{}",
                 symbol->name, near.empty() ? "" : "; did you mean `" + near + "`?");
     }

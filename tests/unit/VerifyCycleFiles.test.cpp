@@ -248,6 +248,20 @@ TEST_CASE("verify cycles: a travel that is a macro's whole search goes on beyond
   CHECK_MESSAGE(outcome.output.starts_with("AGREES"), said(outcome));
 }
 
+// No part has so many faces; a probe that meets nothing would be the wrong reason.
+TEST_CASE("verify cycles: more surfaces than a part can have are the reason") {
+  const TestFolder folder("dotek-many-surfaces");
+  const std::string path = folder.write("stairs.cycle", "cycle stairs \"Stairs\"\n\nspindle off\nprobe on\n"
+                                                        "repeat 230 times\n  touch x by 10 mm -> wall\n"
+                                                        "  move by y 30 mm\nend\nprobe off\n");
+  driver::VerifyOptions options = optionsOf(path, "dotek");
+  options.cases = 2;
+  const driver::Outcome outcome = driver::verify(options);
+  CHECK_MESSAGE(says(outcome, "no-values-found"), said(outcome));
+  CHECK_MESSAGE(said(outcome).find("of the 230 surfaces that it touches") != std::string::npos,
+                said(outcome));
+}
+
 // Where the ball begins within a hundredth of the wall, macros take the stylus for deflected.
 TEST_CASE("verify cycles: a touch without a way says nothing") {
   const TestFolder folder("dotek-no-way");
