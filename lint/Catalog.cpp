@@ -165,7 +165,7 @@ std::string ruleList() {
       if (areaOf(rule) == area)
         out += fmt::format("  {:<{}}  {:<7}  {}{}{}\n", rule.id, width, severityName(rule.rule->severity),
                            rule.rule->byDefault ? "" : "(off unless it is selected) ", described(rule),
-                           repairs(rule) ? "; --fix repairs it" : "");
+                           repairs(rule) ? " --fix repairs it." : "");
   }
   return out;
 }

@@ -79,14 +79,14 @@ void TokenReader::takeApart(const antlr4::Token& run) {
   }
 }
 
-// From its bracket to the one that closes it, or to the end of the line.
+// From its bracket to the one that closes it, or to the end of the block.
 std::unique_ptr<antlr4::Token> TokenReader::printText(const antlr4::Token& bracket) {
   expectText_ = false;
   antlr4::CharStream& input = *getInputStream();
   int depth = 1;
   while (depth > 0) {
     const std::size_t c = input.LA(1);
-    if (c == antlr4::IntStream::EOF || c == '\n' || c == '\r') break;
+    if (c == antlr4::IntStream::EOF || c == '\n' || c == '\r' || c == ';') break;
     depth += c == '[' ? 1 : c == ']' ? -1 : 0;
     input.consume();
   }

@@ -227,7 +227,7 @@ def document(cells):
         lines.append("")
     refused = [cell for cell in cells if cell.state not in ("agrees", "impossible") and not cell.fact]
     if refused:
-        lines += ["## Refused, or not proved", "", "| code | conversions | first message |", "|---|---|---|"]
+        lines += ["## Refused, or not in agreement", "", "| code | conversions | first message |", "|---|---|---|"]
         for code, count in Counter(cell.code for cell in refused).most_common():
             first = next(cell for cell in refused if cell.code == code)
             lines.append(f"| `{code}` | {count} | {first.message.replace('|', '/')} |")

@@ -199,6 +199,13 @@ TEST_CASE("macrob: both readers agree on made-up programs, and the layout keeps 
   }
 }
 
+TEST_CASE("macrob: text that is printed ends with its block") {
+  for (const std::string text : {"DPRNT[A;M5\n", "SETVN 500[ONE;M5\n", "DPRNT[X#1[53];G0 X1]\n"}) {
+    CAPTURE(text);
+    sameByBothReaders(text);
+  }
+}
+
 TEST_CASE("macrob: both readers agree on damaged programs") {
   static const std::string kBytes = "#[]=.,OD0()%/N\n*- \xB0x";
   std::mt19937 random(7);
