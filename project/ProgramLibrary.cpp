@@ -12,6 +12,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
+#include <iterator>
 #include <system_error>
 #include <utility>
 
@@ -35,7 +36,7 @@ std::optional<ProgramLibrary> ProgramLibrary::load(FileId main, const std::vecto
                                                    const stdlib::Control& control, Session& session) {
   ProgramLibrary out;
   out.main_ = session.sources().file(main).name();
-  std::optional<ir::ProgramFile> file = loadPrograms(main, control, session);
+  std::optional<ir::ProgramFile> file = out.loadMain(main, control, session);
   if (!file) return std::nullopt;
   out.add(std::move(*file), true, session);
   if (out.programs_.empty()) {
@@ -43,6 +44,7 @@ std::optional<ProgramLibrary> ProgramLibrary::load(FileId main, const std::vecto
     return std::nullopt;
   }
   if (!out.addFolders(folders, control, session)) return std::nullopt;
+  out.addUncalled(main, control, session);
   return out;
 }
 
@@ -51,7 +53,7 @@ std::optional<ProgramLibrary> ProgramLibrary::loadCalled(FileId main, const Call
                                                          const stdlib::Control& control, Session& session) {
   ProgramLibrary out;
   out.main_ = session.sources().file(main).name();
-  std::optional<ir::ProgramFile> file = loadPrograms(main, control, session);
+  std::optional<ir::ProgramFile> file = out.loadMain(main, control, session);
   if (!file) return std::nullopt;
   nameByFile(*file, fs::path(out.main_));
   using NameKind = ir::Program::NameKind;
@@ -71,7 +73,52 @@ std::optional<ProgramLibrary> ProgramLibrary::loadCalled(FileId main, const Call
   out.add(std::move(*calling), true, session);
   out.add(std::move(*file), false, session);
   if (!out.addFolders(folders, control, session)) return std::nullopt;
+  out.addUncalled(main, control, session);
   return out;
+}
+
+// All programs of the file; where a later one has errors, the first one, and the others wait for a call.
+std::optional<ir::ProgramFile> ProgramLibrary::loadMain(FileId main, const stdlib::Control& control,
+                                                        Session& session) {
+  Diagnostics before = std::exchange(session.diagnostics(), Diagnostics());
+  std::optional<ir::ProgramFile> file = loadPrograms(main, control, session);
+  if (!file) {
+    Diagnostics ofAll = std::exchange(session.diagnostics(), Diagnostics());
+    std::vector<LoneProgram> programs = lonePrograms(main, session);
+    std::optional<ir::Program> first;
+    if (programs.size() > 1) first = lowerAlone(programs.front(), control, session);
+    if (first) {
+      file.emplace().programs.push_back(std::move(*first));
+      waiting_.insert(waiting_.end(), std::make_move_iterator(programs.begin() + 1),
+                      std::make_move_iterator(programs.end()));
+    } else
+      session.diagnostics() = std::move(ofAll);
+  }
+  std::swap(before, session.diagnostics());
+  for (Diagnostic& one : before.all())
+    session.diagnostics().add(std::move(one));
+  return file;
+}
+
+// What is left of the file that runs: an error in a program that nothing calls stops no run.
+void ProgramLibrary::addUncalled(FileId main, const stdlib::Control& control, Session& session) {
+  for (LoneProgram& one : waiting_) {
+    if (one.file.file != main) continue;
+    const auto& name = one.file.programs.front().name;
+    const SourceRange place = name ? name->range : SourceRange{main, 0, 0};
+    Diagnostics kept = std::exchange(session.diagnostics(), Diagnostics());
+    std::optional<ir::Program> program = lowerAlone(one, control, session);
+    std::swap(kept, session.diagnostics());
+    if (program) {
+      add(std::move(*program), false, session);
+      continue;
+    }
+    Diagnostic& found = session.diagnostics().report<diag::ProgramUncalled>(place, inputName(main_));
+    const auto error = std::find_if(kept.all().begin(), kept.all().end(),
+                                    [](const Diagnostic& d) { return d.severity == Severity::Error; });
+    if (error != kept.all().end()) found.note(error->range, error->message);
+  }
+  std::erase_if(waiting_, [&](const LoneProgram& one) { return one.file.file == main; });
 }
 
 bool ProgramLibrary::addFolders(const std::vector<std::string>& folders, const stdlib::Control& control,

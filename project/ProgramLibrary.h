@@ -23,9 +23,9 @@ class ProgramLibrary {
 public:
   // Of `folders` the NC files, whatever their names, in the order of these; read are the programs that are
   // called, and what these call. An error in one of them is reported, and gives nullopt; one in a program
-  // that nothing calls does not matter. Where a call computes its number, and of the codes of the control
-  // that call programs, those that can be read are there, too, and a note names those that cannot. A file
-  // without a program is refused, so programs() is never empty.
+  // that nothing calls does not matter: of the file that runs a warning names it. Where a call computes its
+  // number, and of the codes of the control that call programs, those that can be read are there, too, and a
+  // note names those that cannot. A file without a program is refused, so programs() is never empty.
   static std::optional<ProgramLibrary> load(FileId main, const std::vector<std::string>& folders,
                                             const stdlib::Control& control, Session& session);
   // Text of a main program that calls O`number`.
@@ -53,6 +53,8 @@ private:
     bool computed = false; // the number of one is computed
   };
 
+  std::optional<ir::ProgramFile> loadMain(FileId main, const stdlib::Control& control, Session& session);
+  void addUncalled(FileId main, const stdlib::Control& control, Session& session);
   bool addFolders(const std::vector<std::string>& folders, const stdlib::Control& control, Session& session);
   bool find(const std::string& folder, Session& session);
   bool read(Unread& file, Session& session);

@@ -307,6 +307,31 @@ TEST_CASE("setup: a computed call of a program that has errors says so, and is n
   CHECK(has(runIn(scratch, "sim main.nc --programs macros"), "alarm 78"));
 }
 
+TEST_CASE("sim: an error in a program of the file that nothing calls stops no run") {
+  const TestFolder scratch("dotek-uncalled");
+  const auto run = [&](const std::string& text, const std::string& flags = "") {
+    scratch.write("main.nc", text);
+    return runIn(scratch, "sim main.nc" + flags);
+  };
+  const CommandResult uncalled =
+      run("%\nO1\n#1=2.\nG0 X#1\nM98 P3\nM30\nO2\n#1=[2.+\nM99\nO3\nG0 Y5.\nM99\n%\n");
+  CHECK(uncalled.status == 0);
+  CHECK(has(uncalled, "rapid X2.000000 Y5.000000"));
+  CHECK(has(uncalled, "main.nc:7:1: warning: this program has errors"));
+  CHECK(has(uncalled, "[program-uncalled]"));
+  CHECK(has(uncalled, "main.nc:8:4: note: the block has 1 `[`"));
+  // Calls of what is called count, and those of what is not do not.
+  CHECK(run("O1\nM98 P2\nM30\nO2\nM98 P3\nM99\nO3\n#1=[2.+\nM99\n").status == 1);
+  CHECK(run("O1\nG0 X1.\nM30\nO2\nM98 P3\nGOTO 5\nM99\nO3\n#1=[2.+\nM99\n").status == 0);
+  CHECK(run("O1\n#1=[2.+\nM30\nO2\nM99\n").status == 1);
+  CHECK(
+      has(run("O1\n#1=2\nM98 P#1\nM30\nO2\n#1=[2.+\nM99\n"), "O0002, which is in `main.nc` and has errors"));
+  // Of --call the first program is the one that is called.
+  CHECK(run("O9100\nG0 Z#26\nM99\nO2\n#1=[2.+\nM99\n", " --call Z1.").status == 0);
+  // What belongs to no program may belong to each.
+  CHECK(run("O1\nG0 X1.\nM30\nO2\nM99\n", " --limit input-bytes=5").status != 0);
+}
+
 TEST_CASE("setup: a flag that does not say enough names what is missing") {
   const TestFolder scratch("dotek-setup-flags");
   scratch.write("part.toml", kBox);
