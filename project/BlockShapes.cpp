@@ -199,6 +199,35 @@ BlockShape blockShape(View line) {
   return all;
 }
 
+bool hasStrayWord(View line) {
+  constexpr std::array<View, 37> kWords = {
+      "IF",  "THEN",  "ELSE", "ENDIF", "GOTO", "WHILE", "DO",  "END", "EQ",  "NE",   "GT",   "GE",   "LT",
+      "LE",  "AND",   "OR",   "XOR",   "NOT",  "MOD",   "SIN", "COS", "TAN", "ASIN", "ACOS", "ATAN", "SQRT",
+      "ABS", "ROUND", "FIX",  "FUP",   "LN",   "EXP",   "BIN", "BCD", "POW", "ADP",  "PRM"};
+  std::string text;
+  int comment = 0;
+  for (const char c : line.substr(0, std::min(line.find("//"), line.find(';')))) {
+    comment += c == '(' ? 1 : 0;
+    if (comment == 0) text += upperCase(c);
+    comment -= c == ')' && comment > 0 ? 1 : 0;
+  }
+  for (const View print : {"DPRNT", "BPRNT", "SETVN"})
+    if (text.find(print) != std::string::npos) return false;
+  const View rest = text;
+  for (std::size_t i = 0; i < rest.size();) {
+    const std::size_t end = std::min(rest.find_first_of(" \t", i), rest.size());
+    View word = rest.substr(i, end - i);
+    i = end + 1;
+    while (!word.empty() && View(".,:!?").find(word.back()) != View::npos)
+      word.remove_suffix(1);
+    const bool letters = word.size() > 1 && std::all_of(word.begin(), word.end(), [](char c) {
+                           return isCapital(c) || (c & 0x80) != 0;
+                         });
+    if (letters && std::find(kWords.begin(), kWords.end(), word) == kWords.end()) return true;
+  }
+  return false;
+}
+
 Shape sufShape(View line) {
   std::string text;
   for (const char c : line.substr(0, line.find(';')))

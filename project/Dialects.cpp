@@ -169,6 +169,23 @@ std::optional<Foreign> Dialects::foreign() const {
   return Foreign{std::string(facts.name), std::move(lines), std::string(facts.remedy)};
 }
 
+namespace {
+
+// What `dotek dump --stage ir` prints: its first line, and one that follows at any distance.
+bool isPrintedIr(View text) {
+  const View first = text.substr(0, text.find_first_of("\r\n"));
+  const auto hasLine = [&](View begin) {
+    for (std::size_t at = text.find(begin); at != View::npos; at = text.find(begin, at + 1))
+      if (at > 0 && text[at - 1] == '\n') return true;
+    return false;
+  };
+  if (first == "units mm" || first == "units inch") return hasLine("cycle ");
+  const View word = first.substr(0, first.find(' '));
+  return word == "program" && (hasLine("  body\n") || hasLine("  body\r"));
+}
+
+} // namespace
+
 std::optional<std::string> otherFormat(View bytes) {
   struct Magic {
     View begin;
@@ -198,6 +215,7 @@ std::optional<std::string> otherFormat(View bytes) {
     if (begin == 0 || begin == View::npos) break;
     text.remove_prefix(begin);
   }
+  if (isPrintedIr(text)) return "what `dotek dump --stage ir` prints, an output of Dotek";
   const std::string head = lowerCase(text.substr(0, 40));
   if (head.starts_with("<svg")) return "an SVG picture";
   for (const View tag : {"<?xml", "<!doctype", "<html", "<!--"})

@@ -56,12 +56,14 @@ public:
     tally.begins += shape.begins ? 1 : 0;
     macroB += shape.macroB;
     code = code || shape.code || shape.macroB > (shape.percent ? 1 : 0);
+    framed = framed || shape.percent || shape.header;
     seen_ = seen_ || shape.percent;
   }
 
   Tally tally;
   int macroB = 0;
   bool code = false;
+  bool framed = false; // it has a `%` or the number of a program
 
 private:
   bool closed() const { return seen_ && !inside_; }
@@ -74,6 +76,7 @@ struct Evidence {
   NcTally nc;
   Dialects dialects;
   int definitions = 0, prose = 0;
+  int stray = 0;       // blocks of NC that have a word which is none of it
   bool schema = false; // a TOML file of Dotek begins with `schema = 1`
 
   const Tally& of(InputKind kind) const {
@@ -115,6 +118,7 @@ Evidence look(View text) {
     const BlockShape block = blockShape(line);
     out.nc.add(block);
     out.prose += !block.fits && !block.blank && isProse(line) ? 1 : 0;
+    out.stray += block.fits && block.macroB > 0 && hasStrayWord(line) ? 1 : 0;
     out.suf.add(sufShape(line));
     out.cycle.add(cycleShape(line));
     out.schema = out.schema || line.starts_with("schema =");
@@ -190,13 +194,14 @@ Recognition recogniseText(View text, std::optional<InputKind> named, bool byName
   if (suf) return {InputKind::Suf, share(seen.suf, linesOf(InputKind::Suf))};
   if (seen.cycle.weight >= 4 && seen.cycle.share() >= 0.5)
     return {InputKind::Cycle, share(seen.cycle, linesOf(InputKind::Cycle))};
+  // A text about programs quotes some, and its sentences may begin with a variable.
+  const bool sentences = !seen.nc.framed && seen.stray > 0 && seen.stray + seen.prose > nc.fits - seen.stray;
+  const bool quotes = seen.prose * 4 > nc.lines || sentences;
   std::optional<InputKind> best;
   double score = 0;
   for (const InputKind kind : {InputKind::Nc, InputKind::Macro, InputKind::Dialog, InputKind::Prog}) {
     const Tally& tally = seen.of(kind);
     if (!suffices(kind, tally, named == kind)) continue;
-    // A text about programs quotes some.
-    const bool quotes = seen.prose * 4 > nc.lines;
     if (kind == InputKind::Nc && (named != kind ? quotes || !seen.nc.code : quotes && !byName)) continue;
     const double one = tally.score() * (named == kind ? 1.5 : 1);
     if (one > score) best = kind;
@@ -205,8 +210,7 @@ Recognition recogniseText(View text, std::optional<InputKind> named, bool byName
   if (best) return {best, share(seen.of(*best), linesOf(*best))};
   if (seen.schema) return {std::nullopt, "settings in TOML"};
   if (named && *named != InputKind::Suf && seen.of(*named).lines == 0) return {named, "nothing but comments"};
-  if (!byName && named == InputKind::Nc && seen.prose * 4 > nc.lines)
-    return {std::nullopt, std::string(kUnknown)};
+  if (!byName && named == InputKind::Nc && quotes) return {std::nullopt, std::string(kUnknown)};
   if (named && seen.of(*named).share() >= 0.5) return {named, share(seen.of(*named), linesOf(*named))};
   if (named == InputKind::Nc && (nc.fits + nc.begins) * 4 >= nc.lines)
     return {named, "its name, and blocks with defects"};

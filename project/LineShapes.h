@@ -35,6 +35,10 @@ Shape dialogShape(std::string_view line);
 // A statement of the cycle language.
 Shape cycleShape(std::string_view line);
 
+// A statement of Macro B with a word that is none of it, outside of comments and of what DPRNT prints: a
+// slip, or a sentence about a variable.
+bool hasStrayWord(std::string_view line);
+
 // A sentence: mostly words, not all in capitals.
 bool isProse(std::string_view line);
 

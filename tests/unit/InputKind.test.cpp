@@ -200,6 +200,34 @@ TEST_CASE("input kind: text of people is no program of another control") {
   CHECK(kindOf("$H\n$X\nG0 X5\n$$\n").find("Grbl") != std::string::npos);
 }
 
+TEST_CASE("input kind: sentences about variables are no program") {
+  for (const char* text :
+       {"#7 = diameter\n#24 = X target\n#26 = Z depth\n", "#7=5 works\n#7=0 does not\n",
+        "if #7 is empty then the macro stops.\nUse #7=5.\n",
+        "IF #7 EQ #0 GOTO 10 is wrong, brackets are missing.\n",
+        "#101 = measured width, #102 = its middle\nboth in mm\n", "In #7 is the diameter.\n"}) {
+    CHECK_MESSAGE(kindOf(text) == kNone, text);
+    CHECK_MESSAGE(recognise("notes.txt", text, InputKind::Nc).kind == std::nullopt, text);
+  }
+  // A slip makes no sentence of a program, and neither does one that is all of a program with its name.
+  CHECK(kindOf("#7 = #24 + offset\nG0 X#7\nM99\n") == "nc");
+  CHECK(kindOf("#7 = #24 + offset\nM99\n") == "nc");
+  CHECK(kindOf("O7310\nIF [#7 IS #0] GOTO 5\n") == "nc");
+  CHECK(kindOf("#7 = diameter\n", "O7310") == "nc");
+  CHECK(kindOf("if [#1 eq #0] goto 10\nwhile [#2 lt round [#3]] do 1\n#2 = #2 mod 3 (counts)\nend 1\n") ==
+        "nc");
+}
+
+TEST_CASE("input kind: what dump prints is an output") {
+  const std::string output = "none: what `dotek dump --stage ir` prints, an output of Dotek";
+  CHECK(kindOf("program 9100                   ; a.nc:2\n  comment \"A\"\n  body\n    if #25 is not #0 goto "
+               "next1\n",
+               "a.nc") == output);
+  CHECK(kindOf("program\r\n  body\r\n    G0 X[1.]\r\n") == output);
+  CHECK(kindOf("units mm\n\ncycle \"surface-x\" \"Surface along X\"\n  parameter X length in mm = 12\n") ==
+        output);
+}
+
 TEST_CASE("input kind: bytes that are no text, and no bytes at all") {
   CHECK(kindOf("") == "none: empty");
   CHECK(kindOf(" \r\n\n") == "none: empty");
