@@ -54,6 +54,7 @@ IndirectWrites::IndirectWrites(const ir::Program& program) {
   };
   std::map<std::uint32_t, Counter> all;
   bool any = false;
+  std::set<std::uint32_t> more;
   for (const ir::ProgramStatement& statement : program.body) {
     if (const auto* store = std::get_if<ir::Store>(&statement.node)) {
       const auto number = storedNumber(statement);
@@ -62,6 +63,7 @@ IndirectWrites::IndirectWrites(const ir::Program& program) {
         any = any || !first || *first < kKinds[1].first;
         continue;
       }
+      if (!once_.emplace(*number, store->value).second) more.insert(*number);
       Counter& one = all[*number];
       if (const double* value = ir::constantValue(store->value)) {
         one.low = std::min(one.low.value_or(*value), *value);
@@ -83,6 +85,8 @@ IndirectWrites::IndirectWrites(const ir::Program& program) {
         }
       });
   }
+  for (const std::uint32_t number : more)
+    once_.erase(number);
   if (any) return; // may set a counter
   for (const auto& [number, one] : all)
     if (one.low && !one.other && (one.step == 0 || one.limit))
@@ -108,6 +112,43 @@ std::optional<IndirectWrites::Bounds> IndirectWrites::bounds(const ir::Expressio
   const auto [low, high] = std::minmax(
       {left->low * right->low, left->low * right->high, left->high * right->low, left->high * right->high});
   return Bounds{low, high};
+}
+
+std::optional<std::uint32_t> IndirectWrites::single(const ir::ExpressionPtr& given) const {
+  ir::ExpressionPtr number = bare(given);
+  constexpr int kMostDepth = 8;
+  for (int depth = 0; number && depth < kMostDepth; ++depth) {
+    const auto known = bounds(number);
+    if (known && known->low == known->high && known->low >= 1 && known->low < 1e6)
+      return static_cast<std::uint32_t>(std::lround(known->low));
+    const auto variable = variableNumber(*number);
+    const auto once = variable ? once_.find(*variable) : once_.end();
+    if (known || once == once_.end()) return std::nullopt;
+    number = bare(once->second);
+  }
+  return std::nullopt;
+}
+
+std::optional<std::uint32_t> IndirectWrites::firstNumber(const ir::ExpressionPtr& number) const {
+  return firstNumber(number, 0);
+}
+
+std::optional<std::uint32_t> IndirectWrites::firstNumber(const ir::ExpressionPtr& given, int depth) const {
+  constexpr int kMostDepth = 8;
+  const ir::ExpressionPtr& number = bare(given);
+  if (!number || depth > kMostDepth) return std::nullopt;
+  if (const auto first = ir::firstNumber(number)) return first;
+  if (const auto variable = variableNumber(*number)) {
+    const auto once = once_.find(*variable);
+    return once == once_.end() ? std::nullopt : firstNumber(once->second, depth + 1);
+  }
+  const auto* sum = std::get_if<ir::Binary>(&number->node);
+  if (sum == nullptr || sum->op != ir::BinaryOp::Add) return std::nullopt;
+  for (const ir::ExpressionPtr& side : {sum->left, sum->right}) {
+    if (const auto one = single(side)) return one;
+    if (const auto first = firstNumber(side, depth + 1)) return first;
+  }
+  return std::nullopt;
 }
 
 std::optional<NumberRange> IndirectWrites::range(const ir::ExpressionPtr& number) const {

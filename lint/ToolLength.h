@@ -32,8 +32,9 @@ struct LengthLeftIn {
     std::uint32_t wear = 2000, geometry = 2200;
   };
   std::optional<Wear> wear = std::nullopt;
-  bool taken = false;    // the length is taken off a coordinate that does not hold it; `read` is the length
-  SourceRange call = {}; // by which the program is called under G43; no place: nothing says so
+  bool taken = false;      // the length is taken off a coordinate that does not hold it; `read` is the length
+  SourceRange passed = {}; // the call that passes the position, which its caller reads; no place: none
+  SourceRange call = {};   // by which the program is called under G43; no place: nothing says so
 };
 
 // What profiles and files say of lengths, gathered once for all programs of a project, which outlives it.
@@ -46,7 +47,8 @@ public:
 
   // Those of the program, in the order of its statements. Silent where the control is not known to hold the
   // length in its positions, under G49, and where something else that may be the length is taken off: a
-  // common variable that the program does not set, a tool offset.
+  // common variable that the program does not set, a tool offset. A position may come from the caller, or
+  // from a program that is called, one call away and in the files.
   std::vector<LengthLeftIn> leftIn(const ir::Program& program) const;
 
   // It gives an entry of the table of tools a new value: it runs with a tool that has none in force.
@@ -58,7 +60,6 @@ public:
   struct Known;
 
 private:
-  const Project& project_;
   std::unique_ptr<const Known> known_;
 };
 

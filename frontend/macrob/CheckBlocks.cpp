@@ -449,19 +449,55 @@ bool has(std::string_view text, std::initializer_list<std::string_view> words) {
                      [&](std::string_view word) { return text.find(word) != std::string_view::npos; });
 }
 
-// The first variable that may be written: the one with this number, or the one after what a computed number
-// counts from: 2201 of #[2200+#7], since no tool has the number 0.
-std::optional<double> writtenFrom(const nc::Assignment& assignment) {
-  if (const auto number = literal(*assignment.variable)) return number;
-  const Expression* at = assignment.variable.get();
-  while (const auto* sum = std::get_if<nc::Operation>(&at->node)) {
-    if (sum->op != "+") return std::nullopt;
-    if (const auto left = literal(*sum->left)) return *left + 1;
-    if (const auto right = literal(*sum->right)) return *right + 1;
-    at = sum->left.get();
+// What the numbers of variables are made of, as sums: a constant and whatever else is added.
+class Addresses {
+public:
+  explicit Addresses(const std::vector<Block>& blocks) {
+    for (const Block& block : blocks)
+      if (const nc::Assignment* assignment = assignmentOf(block))
+        if (const auto number = literal(*assignment->variable))
+          set_[*number].push_back(assignment->value.get());
   }
-  return std::nullopt;
-}
+
+  static const nc::Assignment* assignmentOf(const Block& block) {
+    const auto* branch = std::get_if<If>(&block.body);
+    return branch != nullptr ? std::get_if<nc::Assignment>(&branch->statement)
+                             : std::get_if<nc::Assignment>(&block.body);
+  }
+
+  // The first variable that may be written: the one with this number, or the one after what a computed number
+  // counts from: 2201 of #[2200+#7], since no tool has the number 0.
+  std::optional<double> writtenFrom(const nc::Assignment& assignment) const {
+    const Sum sum = sumOf(*assignment.variable, 0);
+    if (!sum.any) return sum.constant;
+    return sum.constant == 0 ? std::nullopt : std::optional(sum.constant + 1);
+  }
+
+private:
+  struct Sum {
+    double constant = 0;
+    bool any = false; // something that is not known is added
+  };
+  static constexpr int kMostDepth = 8;
+
+  Sum sumOf(const Expression& value, int depth) const {
+    if (const auto number = literal(value)) return {*number, false};
+    if (const auto* operation = std::get_if<nc::Operation>(&value.node)) {
+      if (operation->op != "+" && operation->op != "-") return {0, true};
+      const Sum left = sumOf(*operation->left, depth), right = sumOf(*operation->right, depth);
+      return {left.constant + (operation->op == "+" ? right.constant : -right.constant),
+              left.any || right.any};
+    }
+    const auto* variable = std::get_if<nc::VariableRef>(&value.node);
+    const auto number = variable != nullptr ? literal(*variable->number) : std::nullopt;
+    const auto set = number && depth < kMostDepth ? set_.find(*number) : set_.end();
+    // One that is set in several places may be anything.
+    if (set == set_.end() || set->second.size() != 1) return {0, true};
+    return sumOf(*set->second.front(), depth + 1);
+  }
+
+  std::map<double, std::vector<const Expression*>> set_;
+};
 
 } // namespace
 
@@ -482,17 +518,16 @@ void wearInGeometry(const CheckedProgram& input, Report& report) {
       all += upper(comment.text) + "\n";
   if (!has(all, {"WEAR", "VERSCHLEI", "OPOT"})) return;
   const bool both = has(all, {"GEOM", "GEO ", "DELK"});
+  const Addresses addresses(input.program.blocks);
   std::vector<const nc::Assignment*> writes;
   bool writesWear = false;
   const std::vector<Comment>* before = nullptr;
   for (const Block& block : input.program.blocks) {
-    const auto* assignment = std::get_if<nc::Assignment>(&block.body);
-    if (const auto* branch = std::get_if<If>(&block.body))
-      assignment = std::get_if<nc::Assignment>(&branch->statement);
+    const nc::Assignment* assignment = Addresses::assignmentOf(block);
     const std::vector<Comment>* above = std::exchange(before, nullptr);
     if (std::holds_alternative<std::monostate>(block.body)) before = &block.comments;
     if (assignment == nullptr) continue;
-    const auto from = writtenFrom(*assignment);
+    const auto from = addresses.writtenFrom(*assignment);
     if (from && in(*from, wear) && !in(*from, geometry)) writesWear = true;
     if (!from || !in(*from, geometry)) continue;
     std::string near;

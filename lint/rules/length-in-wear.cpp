@@ -1,4 +1,4 @@
-#include "ir/Walk.h"
+#include "lint/IndirectWrites.h"
 #include "lint/LengthNumbers.h"
 #include "lint/NcProgram.h"
 
@@ -84,12 +84,13 @@ struct WearWritten {
   const LengthNumbers::Wear* wear = nullptr;
   ir::ExpressionPtr value;
 };
-std::optional<WearWritten> wearWritten(const ir::ProgramStatement& statement, const LengthNumbers& numbers) {
+std::optional<WearWritten> wearWritten(const ir::ProgramStatement& statement, const LengthNumbers& numbers,
+                                       const IndirectWrites& writes) {
   const auto* store = std::get_if<ir::Store>(&statement.node);
   if (store == nullptr) return std::nullopt;
   auto number = storedNumber(statement);
   if (!number)
-    if (const auto first = ir::firstNumber(store->number)) number = *first + 1;
+    if (const auto first = writes.firstNumber(store->number)) number = *first + 1;
   const LengthNumbers::Wear* wear = number ? numbers.wearOf(*number) : nullptr;
   return wear == nullptr ? std::nullopt : std::optional(WearWritten{wear, store->value});
 }
@@ -102,9 +103,10 @@ void check(const NcProgram& nc, Report& report) {
   if (std::none_of(body.begin(), body.end(), [](const auto& one) { return skipOf(one) != nullptr; })) return;
   const LengthNumbers numbers(nc.project);
   const Sums sums(nc.program);
+  const IndirectWrites writes(nc.program);
   const std::vector<Terms> targets = targetsOf(nc.program, sums, numbers);
   for (const ir::ProgramStatement& statement : body) {
-    const auto written = wearWritten(statement, numbers);
+    const auto written = wearWritten(statement, numbers, writes);
     const auto value = written ? sums.of(written->value) : std::nullopt;
     if (!value) continue;
     Terms rest = *value;

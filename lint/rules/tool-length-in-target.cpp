@@ -12,7 +12,8 @@ using Place = LengthLeftIn::Place;
 // `Z#101` becomes `Z[#101-#5083]`; nothing where the length is in it otherwise than once.
 std::optional<Edit> repair(const LengthLeftIn& one, const SourceMap& sources) {
   // Where the wear is taken off, the length has to come in its place.
-  if (one.taken || one.wear || !one.value.hasPlace() || one.length == 0 ||
+  // What a call passes on may be right in other calls.
+  if (one.taken || one.wear || one.passed.hasPlace() || !one.value.hasPlace() || one.length == 0 ||
       (one.lengths != 1 && one.lengths != -1))
     return std::nullopt;
   std::string text(sources.text(one.value));
@@ -67,10 +68,10 @@ const std::string* doubtOf(const Project& project) {
 void checkProgram(const ir::Program& program, const Project& project, const ToolLengths& lengths,
                   Report& report) {
   // One position that is read leads to one finding, at its first coordinate.
-  std::map<std::uint32_t, std::size_t> places; // of positions, in `read`
+  std::map<std::pair<FileId, std::uint32_t>, std::size_t> places; // of positions, in `read`
   std::vector<std::vector<LengthLeftIn>> read;
   for (const LengthLeftIn& one : lengths.leftIn(program)) {
-    const auto [place, added] = places.try_emplace(one.readAt.begin, read.size());
+    const auto [place, added] = places.try_emplace({one.readAt.file, one.readAt.begin}, read.size());
     if (added) read.emplace_back();
     read[place->second].push_back(one);
   }
@@ -91,8 +92,10 @@ void checkProgram(const ir::Program& program, const Project& project, const Tool
                         first.wear ? wearText(*first.wear) : std::string("nothing takes it off"));
     if (first.call.hasPlace()) found.note(first.call, "the program is called here, under G43");
     if (first.readAt.hasPlace() &&
-        (first.readAt.end <= first.range.begin || first.readAt.begin >= first.range.end))
+        (first.readAt.file != first.range.file || first.readAt.end <= first.range.begin ||
+         first.readAt.begin >= first.range.end))
       found.note(first.readAt, "the position is read here");
+    if (first.passed.hasPlace()) found.note(first.passed, "this call passes it on");
     const std::string* const doubt = first.taken ? nullptr : doubtOf(project);
     if (doubt != nullptr)
       found.note(first.readAt.hasPlace() ? first.readAt : first.range,
