@@ -7,6 +7,7 @@
 #include "driver/LintFix.h"
 #include "frontend/compost/Summary.h"
 #include "frontend/fusion/Parse.h"
+#include "frontend/gibbs/Check.h"
 #include "frontend/macrob/Check.h"
 #include "frontend/mikroprog/Parse.h"
 #include "lint/Baseline.h"
@@ -96,6 +97,7 @@ public:
     run([](const lint::NamedRule& rule) { return rule.rule->shared; });
     acceptEntryPoints();
     keepStrongest(session_.diagnostics());
+    dropReadsOfUndefined();
     run([&](const lint::NamedRule& rule) { return !rule.rule->shared && isWantedSomewhere(rule.id); });
     reportUnknownSets();
     configs_.reportUnused(options_.paths);
@@ -240,6 +242,18 @@ private:
                               if (named->rule->tier == lint::Tier::Ir) return lowered.contains(file);
                               return true;
                             });
+  }
+
+  // A variable that nothing sets is one that is read before it is set.
+  void dropReadsOfUndefined() {
+    auto& all = session_.diagnostics().all();
+    std::set<std::pair<FileId, std::uint32_t>> undefined;
+    for (const Diagnostic& d : all)
+      if (d.code == frontend::gibbs::undefinedVariableCheck.code)
+        undefined.emplace(d.range.file, d.range.begin);
+    std::erase_if(all, [&](const Diagnostic& d) {
+      return d.code == diag::ReadBeforeSet::code && undefined.contains({d.range.file, d.range.begin});
+    });
   }
 
   bool failsNow() {

@@ -40,7 +40,7 @@ void runRules(const Project& project, Diagnostics& diagnostics,
   if (auto parsed = chosen(&Rule::parsed, all, diagnostics); !parsed.empty())
     for (const NcFile& nc : project.programs)
       for (const macrob::Program& program : nc.file->programs) {
-        const macrob::CheckedProgram checked(program, project.control, project.sources);
+        const macrob::CheckedProgram checked(program, project.control, project.sources, project.controls);
         for (auto& [run, report, ofMills] : parsed)
           if (!ofMills || !lathes.contains(nc.file)) run(checked, report);
       }

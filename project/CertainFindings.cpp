@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace dotek::project {
 namespace {
@@ -41,6 +42,9 @@ constexpr std::array<std::string_view, 5> kOfForm = {
     diag::PicturePrefixUnverified::code, diag::FormatOfCommand::code,
 };
 
+// In the CAM such a macro may be right; there is no target that it can become.
+constexpr std::array<std::string_view, 2> kOfConvert = {diag::CamValue::code, diag::ReadBeforeSet::code};
+
 template <class Codes> bool isIn(std::string_view code, const Codes& codes) {
   return std::find(codes.begin(), codes.end(), code) != codes.end();
 }
@@ -49,7 +53,13 @@ template <class Codes> bool isIn(std::string_view code, const Codes& codes) {
 
 void keepCertain(const Diagnostics& from, bool formNamed, Diagnostics& into) {
   for (const Diagnostic& one : from.all())
-    if (isIn(one.code, kCertain) || (formNamed && isIn(one.code, kOfForm))) into.add(one);
+    if (isIn(one.code, kCertain) || (formNamed && isIn(one.code, kOfForm))) {
+      into.add(one);
+    } else if (isIn(one.code, kOfConvert)) {
+      Diagnostic kept = one;
+      kept.severity = std::min(kept.severity, Severity::Warning);
+      into.add(std::move(kept));
+    }
 }
 
 } // namespace dotek::project

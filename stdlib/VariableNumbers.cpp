@@ -21,11 +21,21 @@ bool isOffset(std::optional<int> first, long number, int axisStep, int systemSte
   return false;
 }
 
+// The code in force of a group that no code of the control is in: what it holds nobody knows.
+bool isOfEmptyGroup(const Control& control, long number) {
+  const std::optional<int> first = control.variables.modalFirst;
+  return within(first, number, kGroups) &&
+         std::none_of(control.codes.begin(), control.codes.end(), [&](const CodeInfo& code) {
+           return code.letter == 'G' && code.group == number - *first;
+         });
+}
+
 } // namespace
 
 bool namesVariable(const Control& control, std::uint32_t variable) {
   const SystemVariables& v = control.variables;
   const auto number = static_cast<long>(variable);
+  if (isOfEmptyGroup(control, number)) return false;
   for (const StateRange& range : control.state)
     if ((variable >= range.first && variable <= range.last) || range.word == variable) return true;
   if (control.window)

@@ -7,8 +7,10 @@
 
 namespace dotek::frontend::macrob {
 
-CheckedProgram::CheckedProgram(const Program& parsed, const stdlib::Control* machine, const SourceMap& files)
-    : program(parsed), control(machine), sources(files), flow(flowOf(parsed, files)) {
+CheckedProgram::CheckedProgram(const Program& parsed, const stdlib::Control* machine, const SourceMap& files,
+                               std::span<const stdlib::Control> profiles)
+    : program(parsed), control(machine), machines(machine != nullptr ? std::span(machine, 1) : profiles),
+      sources(files), flow(flowOf(parsed, files)) {
   // A program of a CAM is numbers for the most part; no check looks at a short one by itself.
   constexpr std::size_t kShort = 8;
   for (const Block& block : program.blocks) {
@@ -27,6 +29,14 @@ CheckedProgram::CheckedProgram(const Program& parsed, const stdlib::Control* mac
     plain.push_back(words);
     if (call && call->kind == CallKind::Subprogram) subprograms.push_back(std::move(*call));
   }
+}
+
+std::string CheckedProgram::machineText() const {
+  if (control != nullptr) return control->title;
+  std::string names;
+  for (const stdlib::Control& one : machines)
+    names += (names.empty() ? "" : ", ") + one.name;
+  return "each control of which Dotek has a profile (" + names + ")";
 }
 
 const std::vector<std::optional<Modes>>& CheckedProgram::modes() const {

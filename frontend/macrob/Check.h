@@ -8,6 +8,7 @@
 #include "support/Check.h"
 #include "support/Source.h"
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <span>
@@ -46,11 +47,21 @@ struct FlowFindings {
 // A parsed program, and what several checks ask of it. What is passed outlives it.
 class CheckedProgram {
 public:
-  // `control`: the machine that the program is for; nullptr: only what holds on every control.
-  CheckedProgram(const Program& parsed, const stdlib::Control* machine, const SourceMap& files);
+  // `control`: the machine that the program is for; nullptr: only what holds on every control, and what each
+  // of `profiles` says, those that the program may be for.
+  CheckedProgram(const Program& parsed, const stdlib::Control* machine, const SourceMap& files,
+                 std::span<const stdlib::Control> profiles = {});
 
   const Program& program;
   const stdlib::Control* control;
+  // The control alone, or all profiles; none: nothing is known of the machine.
+  std::span<const stdlib::Control> machines;
+  // It holds of each of them, and there is one.
+  template <class Predicate> bool onEach(const Predicate& holds) const {
+    return !machines.empty() && std::all_of(machines.begin(), machines.end(), holds);
+  }
+  // "Fanuc 0i-MD", or "each control of which Dotek has a profile (fanuc-0i-md, ..)".
+  std::string machineText() const;
   const SourceMap& sources;
 
   // An expression of a block, inner ones after the one that holds them; numbers of few digits are left out.

@@ -208,15 +208,15 @@ void numberDigits(const CheckedProgram& input, Report& report) {
 // ---- functions
 
 void functionUnknownHere(const CheckedProgram& input, Report& report) {
-  if (input.control == nullptr) return;
   std::set<std::string> told;
   const auto known = [&](const std::string& form, SourceRange range) {
-    if (input.control->functions.contains(form)) return true;
+    if (!input.onEach([&](const stdlib::Control& control) { return !control.functions.contains(form); }))
+      return true;
     if (told.insert(form).second)
       report.at(
           range,
           "{} is not known to {}; the control stops with an alarm; use another form, or another control",
-          form, input.control->title);
+          form, input.machineText());
     return false;
   };
   for (const CheckedProgram::Part& part : input.parts) {

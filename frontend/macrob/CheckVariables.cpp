@@ -147,31 +147,48 @@ void nullWritten(const CheckedProgram& input, Report& report) {
 }
 
 void readOnlyWritten(const CheckedProgram& input, Report& report) {
-  if (input.control == nullptr) return;
   eachAssignment(input, [&](const nc::Assignment& assignment) {
     const auto written = writtenBy(assignment);
-    if (written && written->number != 0 && stdlib::isReadAlone(*input.control, written->number))
-      report.at(written->range, "#{} can only be read; the control stops with alarm 116", written->number);
+    if (!written || written->number == 0 || !input.onEach([&](const stdlib::Control& control) {
+          return stdlib::isReadAlone(control, written->number);
+        }))
+      return;
+    report.at(written->range, "#{} can only be read{}; the control stops with alarm 116", written->number,
+              input.control == nullptr ? " on " + input.machineText() : "");
   });
 }
 
 void systemVariableUnknown(const CheckedProgram& input, Report& report) {
-  if (input.control == nullptr) return;
   std::set<std::uint32_t> told;
   std::string names;
   SourceRange first;
-  const auto judge = [&](std::uint32_t number, SourceRange range) {
-    if (number < kFirstSystem || isTableBase(number) || stdlib::namesVariable(*input.control, number) ||
-        !told.insert(number).second)
+  bool mixed = false; // on some profiles it can be read only
+  const auto isUnknown = [&](std::uint32_t number, bool written = false) {
+    const auto readAlone = [&](const stdlib::Control& control) {
+      return stdlib::isReadAlone(control, number);
+    };
+    const auto unknown = [&](const stdlib::Control& control) {
+      return !stdlib::namesVariable(control, number);
+    };
+    if (input.onEach(unknown)) return true;
+    const bool one = written && !input.onEach(readAlone) && input.onEach([&](const auto& control) {
+      return unknown(control) || readAlone(control);
+    });
+    mixed = mixed || one;
+    return one;
+  };
+  const auto judge = [&](std::uint32_t number, SourceRange range, bool written = false) {
+    if (number < kFirstSystem || isTableBase(number) || told.contains(number) || !isUnknown(number, written))
       return;
+    told.insert(number);
     if (names.empty()) first = range;
     names += fmt::format("{}#{}", names.empty() ? "" : ", ", number);
   };
   // Tables of tool offsets, of which this control has not even the first.
   const auto judgeTable = [&](const Expression& number, SourceRange range) {
     const auto base = countsFrom(number);
-    if (!base || *base < kFirstLongTable || !isTableBase(*base) ||
-        stdlib::namesVariable(*input.control, *base + 1) || !told.insert(*base).second)
+    if (!base || *base < kFirstLongTable || !isTableBase(*base) || !isUnknown(*base + 1) ||
+        !told.insert(*base).second)
       return;
     if (names.empty()) first = range;
     names += fmt::format("{}#[{}+n]", names.empty() ? "" : ", ", *base);
@@ -183,17 +200,27 @@ void systemVariableUnknown(const CheckedProgram& input, Report& report) {
         judgeTable(*variable->number, expression.range);
     });
     if (const nc::Assignment* assignment = assignmentOf(block)) {
-      if (const auto written = writtenBy(*assignment)) judge(written->number, written->range);
+      if (const auto written = writtenBy(*assignment)) judge(written->number, written->range, true);
       judgeTable(*assignment->variable,
                  {assignment->range.file, assignment->range.begin, assignment->variable->range.end});
     }
   }
   if (names.empty()) return;
-  report.at(
-      first,
-      "the profile of {} does not know {}; the control may stop with alarm 115, and a run ends here; take "
-      "other variables, or describe these in the control's file",
-      input.control->title, names);
+  if (input.control != nullptr) {
+    report.at(
+        first,
+        "the profile of {} does not know {}; the control may stop with alarm 115, and a run ends here; take "
+        "other variables, or describe these in the control's file",
+        input.control->title, names);
+    return;
+  }
+  // Some other control may have them.
+  report
+      .at(first,
+          "no profile of Dotek knows {}{}; a control without such a variable stops with alarm 115, and a run "
+          "ends here; correct the number, or name the machine with `--control`, whose file can describe it",
+          names, mixed ? ", or lets a program set it" : "")
+      .severity = Severity::Note;
 }
 
 // ---- `#` at the wrong place

@@ -337,3 +337,40 @@ TEST_CASE("lint: where a profile infers that a position holds the length, no rep
   CHECK(inferred.find("is inferred for Haas NGC") != std::string::npos);
   CHECK(inferred.find("fix by hand") == std::string::npos);
 }
+
+TEST_CASE("lint: what convert refuses of a macro for certain is a warning, and once") {
+  const DataFolder folder;
+  fs::create_directories(folder.path() + "/probe-z");
+  const auto with = [&](const std::string& checks) {
+    folder.write("probe-z/DefineData.txt", "X = 12\n");
+    folder.write("probe-z/CycleData.dlg", "dialog \"Z\", 40, 40, 420, 230\n"
+                                          "label 20, 15, 60, 24, \"X\"\ninput 90, 15, 70, 24, X, X\n"
+                                          "ok 90, 180, 70, 24\ncancel 180, 180, 70, 24\n");
+    folder.write("probe-z/CycleData.mac", ":ask\ndialog \"CycleData.dlg\"\n" + checks +
+                                              "if wrong > 0 then message \"Correct it\"\n"
+                                              "if wrong > 0 then goto ask\n");
+    folder.write("probe-z/ToolPath.mac", "op = callback_op\nadd_custom_drill_cycle_path 0, 5\n");
+    Findings out;
+    for (const std::string& one : lint(folder, {"probe-z"}).findings)
+      if (one.find("read-before-set") != std::string::npos || one.find("undefined") != std::string::npos ||
+          one.find("cam-value") != std::string::npos)
+        out.push_back(one);
+    return out;
+  };
+  CHECK(with("wrong = 0\nif X < 1 then wrong = 1\n").empty());
+  CHECK(with("if X < 1 then wrong = 1\n") == Findings{"probe-z/CycleData.mac:4 read-before-set"});
+  // What nothing sets is named as such alone.
+  CHECK(with("wrong = 0\nif X < limit then wrong = 1\n") ==
+        Findings{"probe-z/CycleData.mac:4 undefined-variable"});
+  CHECK(with("wrong = 0\nget_tool_data 3, MTOOL_RADIUS, r\nif X < r then wrong = 1\n") ==
+        Findings{"probe-z/CycleData.mac:5 cam-value"});
+}
+
+TEST_CASE("lint: without a control what each profile refuses is reported") {
+  const DataFolder folder;
+  folder.write("o.nc", "O1\n#100=#50603\n#4001=1\nM30\n");
+  CHECK(lint(folder, {"o.nc"}).findings ==
+        Findings{"o.nc:2 system-variable-unknown", "o.nc:3 read-only-written"});
+  CHECK(lint(folder, {"o.nc", "--ignore", "system-variable-unknown"}).findings ==
+        Findings{"o.nc:3 read-only-written"});
+}
