@@ -491,12 +491,15 @@ private:
     const auto* variable = std::get_if<nc::VariableRef>(&value.node);
     const auto number = variable != nullptr ? literal(*variable->number) : std::nullopt;
     const auto set = number && depth < kMostDepth ? set_.find(*number) : set_.end();
-    // One that is set in several places may be anything.
+    // One that is set in several places, or by itself, may be anything.
     if (set == set_.end() || set->second.size() != 1) return {0, true};
-    return sumOf(*set->second.front(), depth + 1);
+    const auto [known, added] = known_.try_emplace(*number, Sum{0, true});
+    if (added) known->second = sumOf(*set->second.front(), depth + 1);
+    return known->second;
   }
 
   std::map<double, std::vector<const Expression*>> set_;
+  mutable std::map<double, Sum> known_; // of variables: each is asked for once
 };
 
 } // namespace
