@@ -124,7 +124,8 @@ void addMacroB(std::vector<Construct>& out) {
   linted("words of variables on one line", 1000,
          [](long n) { return program("G1" + times(n, " X#1") + "\n"); });
   linted("one long number", 1000, [](long n) { return program("G1 X" + times(n, "12") + ".\n"); });
-  linted("a long comment", 20000, [](long n) { return program("(" + times(n, "AB ") + ")\n"); });
+  // A line has at most 262,144 bytes.
+  linted("a long comment", 9000, [](long n) { return program("(" + times(n, "AB ") + ")\n"); });
   linted("comments", 4000, [](long n) { return program(times(n, "(NOTE) G4 X1. (NOTE)\n")); });
   linted("comments on one line", 4000, [](long n) { return program(times(n, "(NOTE)") + "\n"); });
   linted("unclosed comments", 4000, [](long n) { return program(times(n, "G0 X1. (NOTE\n")); });
