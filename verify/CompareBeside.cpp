@@ -34,6 +34,7 @@ std::string_view faultName(sim::Outcome outcome) {
   case sim::Outcome::StemCollision: return "a collision of the stem";
   case sim::Outcome::BodyCollision: return "a collision of the probe's body";
   case sim::Outcome::RapidIntoPart: return "a rapid into the part";
+  case sim::Outcome::StartInside: return "a start inside the part";
   case sim::Outcome::OutsideTravel: return "a move out of the machine's travel";
   case sim::Outcome::SetterMiss: return "no contact with the tool setter";
   case sim::Outcome::SetterHit: return "a collision with the tool setter";

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <string>
 #include <utility>
 
@@ -26,7 +27,7 @@ World::World(Part part, const Probe& probe, const MachineLimits& limits)
 void World::restart(std::uint64_t seed) {
   events_.clear();
   on_ = probe_.on;
-  pressed_ = false;
+  begun_ = pressed_ = false;
   lastLine_ = 0;
   seed_ = seed;
   touches_ = 0;
@@ -145,7 +146,59 @@ ProbeEvent& World::addTouch(Outcome outcome, MotionKind kind, const Touch& touch
   return event;
 }
 
+// By less than half a millimetre the stylus may be pressed, as after a touch.
+bool World::beginsInside(MotionKind kind, const Position& position) {
+  if (std::exchange(begun_, true) || part_.isEmpty() || !isModelled(position, position)) return false;
+  if (cuttingTool() != nullptr || isUnknownTool()) return false;
+  constexpr double kDeep = 0.5; // mm
+  const Point3 centre = centreAt(position);
+  const double gap = part_.distance(centre) - probe_.ballRadius();
+  const auto isWithin = [&](double low, double high, double radius) {
+    for (double height = low; height <= high;) {
+      const double free = part_.distance(centre + Point3{0, 0, height}) - radius;
+      if (free < -kDeep) return true;
+      height += std::max(free, kDeep / 2);
+    }
+    return false;
+  };
+  const double stem = probe_.stemDiameter / 2, body = probe_.bodyDiameter / 2;
+  const double low = probe_.stemLength + body;
+  std::string_view what;
+  if (gap < -kDeep)
+    what = "ball";
+  else if (stem > 0 && isWithin(0, probe_.stemLength, stem))
+    what = "stem of the stylus";
+  else if (stem > 0 && body > 0 && isWithin(low, std::max(low, probe_.stemLength + probe_.bodyLength), body))
+    what = "body of the probe";
+  if (what.empty()) return false;
+  ProbeEvent& event = add(Outcome::StartInside, kind, 0, centre);
+  event.what = what;
+  event.gap = gap;
+  return true;
+}
+
+void World::dropStart(std::size_t before) {
+  const auto begin = events_.begin() + static_cast<std::ptrdiff_t>(before);
+  events_.erase(std::remove_if(begin, events_.end(),
+                               [](const ProbeEvent& event) {
+                                 return event.share <= 0 && event.outcome != Outcome::OutsideTravel &&
+                                        event.outcome != Outcome::SetterHit &&
+                                        event.outcome != Outcome::SetterMiss &&
+                                        event.outcome != Outcome::Miss &&
+                                        event.outcome != Outcome::NotModelled;
+                               }),
+                events_.end());
+}
+
 std::optional<double> World::contact(const SkipMove& move) {
+  const bool inside = beginsInside(MotionKind::Skip, move.machineFrom);
+  const std::size_t before = events_.size();
+  const std::optional<double> out = contactOf(move);
+  if (inside) dropStart(before);
+  return out;
+}
+
+std::optional<double> World::contactOf(const SkipMove& move) {
   constexpr MotionKind kKind = MotionKind::Skip;
   ++touches_;
   const Point3 from = centreAt(move.machineFrom), to = centreAt(move.machineTo);
@@ -214,6 +267,14 @@ std::optional<double> World::contact(const SkipMove& move) {
 void World::moved(const MachineMotion& motion) {
   if (motion.kind == MotionKind::Skip) return;
   if (motion.line != 0) lastLine_ = line_ = motion.line;
+  if (!motion.known) begun_ = true;
+  const bool inside = beginsInside(motion.kind, motion.from);
+  const std::size_t before = events_.size();
+  move(motion);
+  if (inside) dropStart(before);
+}
+
+void World::move(const MachineMotion& motion) {
   const Point3 from = centreAt(motion.from), to = centreAt(motion.to);
   if (!motion.known || !isModelled(motion.from, motion.to)) {
     add(Outcome::NotModelled, motion.kind, 0, from).placeUnknown = !motion.known;
@@ -256,6 +317,7 @@ std::string_view outcomeName(Outcome outcome) {
   case Outcome::StemCollision: return "stem-collision";
   case Outcome::BodyCollision: return "body-collision";
   case Outcome::RapidIntoPart: return "rapid-into-part";
+  case Outcome::StartInside: return "start-inside";
   case Outcome::OutsideTravel: return "outside-travel";
   case Outcome::SetterMiss: return "setter-miss";
   case Outcome::SetterHit: return "setter-collision";
@@ -298,6 +360,13 @@ void reportEvent(const ProbeEvent& event, SourceRange range, Diagnostics& diagno
   case Outcome::StemCollision: diagnostics.report<diag::StemCollision>(range, centre); return;
   case Outcome::BodyCollision: diagnostics.report<diag::BodyCollision>(range, centre); return;
   case Outcome::RapidIntoPart: diagnostics.report<diag::RapidIntoPart>(range, centre, depth); return;
+  case Outcome::StartInside:
+    diagnostics.report<diag::StartInside>(range,
+                                          event.gap < 0
+                                              ? fmt::format("{} {} mm", event.what, fixedText(-event.gap, 3))
+                                              : std::string(event.what),
+                                          centre);
+    return;
   case Outcome::OutsideTravel: {
     const char letter = kAxisLetters[event.axis];
     const auto value = [&](double place) { return letter + fixedText(place, 3); };

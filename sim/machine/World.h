@@ -24,6 +24,7 @@ enum class Outcome : std::uint8_t {
   StemCollision, // the stem touches
   BodyCollision, // the body touches
   RapidIntoPart, // the ball touches in rapid
+  StartInside,   // ball, stem or body is in the part before anything has moved
   OutsideTravel, // the machine would leave its travel
   SetterMiss,    // a skip move of a tool to its end without a touch of the tool setter
   SetterHit,     // something meets the tool setter and does not measure
@@ -41,8 +42,8 @@ struct ProbeEvent {
   std::uint64_t line = 0;    // of the program
   bool placeUnknown = false; // of NotModelled: where the machine is
   bool meant = false;        // of Miss: the move was to meet nothing
-  // Of EarlyContact at the start of a skip move: how far the ball was from the part there, below 0 in it; and
-  // the line of the move before it, 0: there is none.
+  // Of EarlyContact at the start of a skip move, and of StartInside: how far the ball was from the part
+  // there, below 0 in it; and the line of the move before it, 0: there is none.
   double gap = 0;
   std::uint64_t lineBefore = 0;
   bool used = false; // of a miss: its skip position was taken for the surface
@@ -50,7 +51,7 @@ struct ProbeEvent {
   // that it passes, in coordinates of the machine.
   std::size_t axis = 0;
   double reached = 0, limit = 0;
-  std::string_view what;  // of SetterHit: "a rapid move", ...
+  std::string_view what;  // of SetterHit: "a rapid move", ...; of StartInside: "ball", ...
   std::uint32_t tool = 0; // of NotModelled: this tool is in no list of the machine
   double below = 0;       // of SetterHit: from the centre to the lowest point
 };
@@ -121,6 +122,12 @@ private:
   ProbeEvent& add(Outcome outcome, MotionKind kind, double share, const Point3& centre);
   void addLeaving(const Leaving& leaves, MotionKind kind, const Point3& from, const Point3& way);
   ProbeEvent& addTouch(Outcome outcome, MotionKind kind, const Touch& touch, double length);
+  // Before the first motion: what is in the part already is one event, and no fault of the move.
+  bool beginsInside(MotionKind kind, const Position& position);
+  // The events of the first motion at its start, from the `before`-th on: they follow from that.
+  void dropStart(std::size_t before);
+  std::optional<double> contactOf(const SkipMove& move);
+  void move(const MachineMotion& motion);
   void settle(const Touch& touch, const MachineMotion& motion, double length);
 
   Part part_;
@@ -131,6 +138,7 @@ private:
   double lengthInForce_ = 0;
   bool on_;
   std::uint64_t lastLine_ = 0; // of the last motion
+  bool begun_ = false;         // something has moved
   bool pressed_ = false;       // the last motion ended in the part, which was reported
   std::uint64_t line_ = 0;
   std::uint64_t seed_;

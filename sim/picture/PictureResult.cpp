@@ -18,7 +18,7 @@ std::uint64_t count(const RunFacts& facts, std::initializer_list<Outcome> outcom
 }
 std::uint64_t collisionsOf(const RunFacts& facts) {
   return count(facts, {Outcome::RapidIntoPart, Outcome::StemCollision, Outcome::BodyCollision,
-                       Outcome::Overtravel, Outcome::NotArmed, Outcome::SetterHit});
+                       Outcome::Overtravel, Outcome::NotArmed, Outcome::SetterHit, Outcome::StartInside});
 }
 
 std::string plural(std::uint64_t number, std::string_view one, std::string_view many) {

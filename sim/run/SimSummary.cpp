@@ -24,6 +24,7 @@ bool hasPoint(Outcome outcome) {
   case Outcome::Overtravel:
   case Outcome::RapidIntoPart: return true;
   case Outcome::Miss:
+  case Outcome::StartInside:
   case Outcome::StemCollision:
   case Outcome::BodyCollision:
   case Outcome::OutsideTravel:

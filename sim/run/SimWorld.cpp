@@ -517,7 +517,7 @@ void SimWorld::addList(PictureList list) {
 std::uint64_t SimWorld::collisions() const {
   std::uint64_t out = 0;
   for (const Outcome outcome : {Outcome::EarlyContact, Outcome::Overtravel, Outcome::StemCollision,
-                                Outcome::BodyCollision, Outcome::RapidIntoPart})
+                                Outcome::BodyCollision, Outcome::RapidIntoPart, Outcome::StartInside})
     out += outcomes_[static_cast<std::size_t>(outcome)];
   return out;
 }

@@ -242,7 +242,8 @@ TEST_CASE("probe: every trouble has its message") {
       {Outcome::NotArmed, "probe-not-armed"},     {Outcome::NoSignal, "no-probe-signal"},
       {Outcome::Overtravel, "probe-overtravel"},  {Outcome::StemCollision, "stem-collision"},
       {Outcome::BodyCollision, "body-collision"}, {Outcome::RapidIntoPart, "rapid-into-part"},
-      {Outcome::OutsideTravel, "outside-travel"}, {Outcome::NotModelled, "axis-not-modelled"}};
+      {Outcome::StartInside, "start-inside"},     {Outcome::OutsideTravel, "outside-travel"},
+      {Outcome::NotModelled, "axis-not-modelled"}};
   for (const auto& [outcome, code] : expected) {
     Diagnostics diagnostics;
     ProbeEvent event;
@@ -331,7 +332,7 @@ TEST_CASE("probe: backing off from a collision is no second one") {
   bench.world.restart(1);
   // What is there at the start was reported by nobody.
   bench.move(MotionKind::Rapid, {80, 20, 1.5}, {80, 20, 20});
-  CHECK(bench.outcomes() == std::vector{Outcome::StemCollision});
+  CHECK(bench.outcomes() == std::vector{Outcome::StartInside});
 }
 
 TEST_CASE("probe: a path that is asked for again meets the part that is there now") {
@@ -347,4 +348,45 @@ TEST_CASE("probe: a path that is asked for again meets the part that is there no
   CHECK(!bench.skip(from, to));
   bench.move(MotionKind::Feed, {80, 20, 20}, {80, 20, 1.5});
   CHECK(bench.outcomes() == std::vector{Outcome::Miss});
+}
+
+TEST_CASE("probe: a run that begins in the part says that, and no more of its first motion's start") {
+  const auto message = [](const ProbeEvent& event) {
+    Diagnostics out;
+    reportEvent(event, {}, out);
+    return out.all().empty() ? std::string() : out.all().front().message;
+  };
+  for (const MotionKind kind : {MotionKind::Rapid, MotionKind::Feed, MotionKind::Skip}) {
+    for (const Point3& to : {Point3{40, 10, -10}, Point3{10, 10, 30}}) { // deeper, and out of it
+      Bench bench(probe());
+      if (kind == MotionKind::Skip)
+        bench.skip({10, 10, -10}, to);
+      else
+        bench.move(kind, {10, 10, -10}, to);
+      REQUIRE(!bench.world.events().empty());
+      const ProbeEvent& event = bench.world.events().front();
+      CHECK(event.outcome == Outcome::StartInside);
+      CHECK(message(event).starts_with(
+          "the run begins with the ball 13.000 mm inside the part, the centre of the "
+          "ball at machine X10.000 Y10.000 Z-10.000: check where it begins (`--at`)"));
+      for (std::size_t i = 1; i < bench.world.events().size(); ++i)
+        CHECK(bench.world.events()[i].share > 0);
+    }
+  }
+  // The ball is free, the stem is not.
+  PartBuilder shelf;
+  shelf.box({0, 0, 10}, {100, 60, 20});
+  Bench bench(probe(), *finish(shelf));
+  bench.move(MotionKind::Feed, {50, 30, 0}, {50, 30, -5});
+  REQUIRE(bench.world.events().size() == 1);
+  CHECK(message(bench.world.events()[0])
+            .starts_with("the run begins with the stem of the stylus inside the part, "));
+  // A stylus that is pressed a little, as after a touch, may go on; later motions begin where the last one
+  // ended.
+  Bench pressed(probe());
+  pressed.move(MotionKind::Feed, {10, 10, 2.9}, {10, 10, 30});
+  CHECK(pressed.outcomes().empty());
+  pressed.move(MotionKind::Rapid, {10, 10, -10}, {10, 10, 30});
+  for (const Outcome outcome : pressed.outcomes())
+    CHECK(outcome != Outcome::StartInside);
 }
