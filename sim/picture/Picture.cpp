@@ -40,6 +40,15 @@ double reachAt(const Picture& picture, std::size_t move) {
   return hasProbe(picture) ? picture.probe.centreLength() : 0;
 }
 
+ToolPoint toolPointAt(const Picture& picture, std::size_t move) {
+  const double reach = reachAt(picture, move);
+  if (move < picture.moves.size() && picture.moves[move].tool > 0)
+    return {reach > 0 ? "tool's end" : "", reach};
+  if (!hasProbe(picture)) return {};
+  return picture.probe.lengthToTip ? ToolPoint{"tip", reach + picture.probe.ballRadius()}
+                                   : ToolPoint{"ball's centre", reach};
+}
+
 std::string toolNote(const PictureTool& tool, int decimals) {
   const std::string path = fmt::format("with tool {} it is that of the", tool.number);
   if (tool.listed) return path + " tool's end";

@@ -39,6 +39,8 @@ struct PictureFrame {
   std::string name; // "G54", "G54.1 P3"; UTF-8
   Point3 shift;
   std::uint8_t unknown = 0; // axes, by bits, of which the place in the machine is not known either
+  std::optional<double> length =
+      std::nullopt; // of the tool, in force; nothing: that of what is in the spindle
 };
 
 struct PictureTool : CuttingTool {
@@ -100,8 +102,9 @@ struct PictureResult {
   std::string word;                // "PASS", "ALARM 3012", "COLLISION"
   std::string text;                // what it is about, one line; all texts are UTF-8
   std::string place, block;        // "O1200, probe.nc:12" and what is written there; "": nowhere
-  std::string position;            // "G54 X1.000 Y2.000 Z3.000; machine X.. Y.. Z.."; "": not known
+  std::string position;            // "G54 X1.000 Y2.000 Z3.000; machine X.. Y.. Z..; mm"; "": not known
   std::vector<std::string> counts; // "2 collisions"
+  std::optional<std::size_t> error = std::nullopt; // that it names, place in Picture::errors
 };
 
 struct Picture {
@@ -133,6 +136,14 @@ std::optional<Point3> workAt(const Picture& picture, const Point3& point, std::s
 // From the point of a move up to the gauge line: of the probe's ball, or of the tool that is in the spindle;
 // 0 without either.
 double reachAt(const Picture& picture, std::size_t move);
+
+// The point of probe or tool that a length counts to, during a move: its name ("tip"), and how far it is
+// below the gauge line. "": the path is that of the gauge line.
+struct ToolPoint {
+  std::string_view name;
+  double below = 0;
+};
+ToolPoint toolPointAt(const Picture& picture, std::size_t move);
 
 // What the path is while this tool is in the spindle.
 std::string toolNote(const PictureTool& tool, int decimals);

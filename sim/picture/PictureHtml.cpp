@@ -1,6 +1,6 @@
 #include "sim/picture/Picture.h"
 #include "sim/picture/PicturePage.h"
-#include "sim/picture/PictureRegion.h"
+#include "sim/picture/PicturePlanes.h"
 #include "sim/picture/PictureReport.h"
 #include "sim/picture/PictureResult.h"
 #include "sim/picture/PictureText.h"
@@ -179,9 +179,12 @@ private:
                              number(size(picture_.setter->diameter / 2)))
                : "\"setter\":null,\n";
     // The move with which the page opens; null: the last one.
-    const std::optional<std::size_t> miss = lastMissOf(picture_);
+    const std::optional<std::size_t> failure = failureOf(picture_);
+    out += fmt::format("\"opens\":{},\n",
+                       failure ? std::to_string(placeOf(picture_.errors[*failure].move)) : "null");
+    // The error that the picture is about, of those that the page holds.
     out +=
-        fmt::format("\"opens\":{},\n", miss ? std::to_string(placeOf(picture_.errors[*miss].move)) : "null");
+        fmt::format("\"fails\":{},\n", failure && *failure < kMostMarks ? std::to_string(*failure) : "null");
     way(out);
     frames(out);
     spindle(out);

@@ -16,7 +16,7 @@ bool isSame(double a, double b) {
 }
 bool isSame(const PictureFrame& a, const PictureFrame& b) {
   return a.name == b.name && a.unknown == b.unknown && isSame(a.shift.x, b.shift.x) &&
-         isSame(a.shift.y, b.shift.y) && isSame(a.shift.z, b.shift.z);
+         isSame(a.shift.y, b.shift.y) && isSame(a.shift.z, b.shift.z) && a.length == b.length;
 }
 
 } // namespace
@@ -37,6 +37,7 @@ PictureFrame frameOf(const Machine& machine) {
     return (machine.uncertain() >> axis & 1) != 0 ? std::nan("") : snap(gauge[axis] - work[axis]);
   };
   PictureFrame out{systemName(machine), {shift(0), shift(1), shift(2)}};
+  out.length = machine.toolLength();
   const Position known = machine.knownMachinePosition();
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (std::isnan(known[axis])) out.unknown |= static_cast<std::uint8_t>(1u << axis);

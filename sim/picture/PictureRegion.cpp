@@ -1,5 +1,7 @@
 #include "sim/picture/PictureRegion.h"
 
+#include "sim/picture/PicturePlanes.h"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -93,6 +95,8 @@ Region focusOf(const Picture& picture) {
   for (const PictureError& error : picture.errors) {
     if (isDrawn(error.at)) bounds.add(error.at);
   }
+  if (const std::optional<std::size_t> failure = failureOf(picture))
+    if (const auto touch = touchAt(picture, picture.errors[*failure])) bounds.add(touch->point);
   if (isTouched(picture)) {
     const double r = picture.setter->diameter / 2;
     bounds.add(picture.setter->at - Point3{r, r, r});
@@ -111,56 +115,6 @@ Region focusOf(const Picture& picture) {
     if (!isEmpty(reach) && longest(reach) < kDrawn / 10) return reach;
   }
   return {{-10, -10, -10}, {10, 10, 10}};
-}
-
-// The deepest place of the material in the region, of a coarse grid.
-std::optional<Point3> insideOf(const Part& part, const Region& region) {
-  constexpr int kSteps = 12;
-  std::optional<Point3> best;
-  double deepest = 0;
-  const Point3 size = region.most - region.least;
-  for (int i = 0; i < kSteps; ++i) {
-    for (int j = 0; j < kSteps; ++j) {
-      for (int k = 0; k < kSteps; ++k) {
-        const Point3 p = region.least + Point3{size.x * (i + 0.5) / kSteps, size.y * (j + 0.5) / kSteps,
-                                               size.z * (k + 0.5) / kSteps};
-        const double distance = part.distance(p);
-        if (distance >= deepest) continue;
-        deepest = distance;
-        best = p;
-      }
-    }
-  }
-  return best;
-}
-
-// Whether the plane across `axis` cuts material in the region, seen on a coarse grid.
-bool cutsMaterial(const Part& part, const Region& region, std::size_t axis, double at) {
-  constexpr int kSteps = 24;
-  const Point3 size = region.most - region.least;
-  for (int i = 0; i < kSteps; ++i) {
-    for (int j = 0; j < kSteps; ++j) {
-      const double u = (i + 0.5) / kSteps, v = (j + 0.5) / kSteps;
-      Point3 p = region.least + (axis == 0   ? Point3{0, size.y * u, size.z * v}
-                                 : axis == 1 ? Point3{size.x * u, 0, size.z * v}
-                                             : Point3{size.x * u, size.y * v, 0});
-      setCoordinate(p, axis, at);
-      if (part.distance(p) < 0) return true;
-    }
-  }
-  return false;
-}
-
-// A place in the material next to a touched point, at most `depth` along the axis.
-std::optional<double> behindFace(const Part& part, const Point3& touched, std::size_t axis, double depth) {
-  for (int i = 0; i < 8; ++i, depth /= 2) {
-    for (const double step : {-depth, depth}) {
-      Point3 p = touched;
-      setCoordinate(p, axis, coordinate(touched, axis) + step);
-      if (part.distance(p) < -1e-6) return coordinate(p, axis);
-    }
-  }
-  return std::nullopt;
 }
 
 } // namespace
@@ -273,94 +227,14 @@ std::optional<WorkZero> workZeroOf(const Picture& picture) {
       static_cast<std::size_t>(std::find_if(picture.moves.begin(), picture.moves.end(),
                                             [&](const PictureMove& one) { return one.frame == place; }) -
                                picture.moves.begin());
-  Point3 at = frame.shift;
-  at.z -= reachAt(picture, move);
-  if (hasProbe(picture) && picture.moves[move].tool == 0) at.z -= picture.probe.ballRadius();
-  if (!isDrawn(at)) return std::nullopt;
-  return WorkZero{frame.name, at};
-}
-
-std::optional<std::size_t> lastMissOf(const Picture& picture) {
-  const auto last = std::find_if(picture.moves.rbegin(), picture.moves.rend(),
-                                 [](const PictureMove& move) { return move.kind == PathKind::Measuring; });
-  if (last == picture.moves.rend()) return std::nullopt;
-  const auto move = static_cast<std::size_t>(last.base() - picture.moves.begin()) - 1;
-  for (std::size_t i = picture.errors.size(); i-- > 0;)
-    if (isMiss(picture.errors[i]) && picture.errors[i].move == move) return i;
-  return std::nullopt;
-}
-
-SectionPlanes sectionPlanesOf(const Picture& picture, const Region& region) {
-  SectionPlanes out;
-  const Point3 middle = (region.least + region.most) * 0.5;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    out.at[axis] = coordinate(middle, axis);
-  if (!picture.part) return out;
-
-  const double depth = std::max(0.5, 0.01 * longest(region)); // after a face that was touched
-  std::optional<Point3> inside;
-  const std::optional<std::size_t> miss = lastMissOf(picture);
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (miss && region.contains(picture.errors[*miss].at)) {
-      const Point3& end = picture.errors[*miss].at;
-      const bool cuts = cutsMaterial(*picture.part, region, axis, coordinate(end, axis));
-      const std::optional<double> face =
-          cuts ? std::nullopt : behindFace(*picture.part, picture.part->nearest(end).point, axis, depth);
-      if (cuts) out.miss[axis] = miss;
-      if (cuts || face) {
-        out.at[axis] = face.value_or(coordinate(end, axis));
-        continue;
-      }
-    }
-    struct Candidate {
-      double at;
-      std::size_t contact;
-    };
-    std::vector<Candidate> sideways;
-    std::optional<double> behind[2]; // after faces that look against the axis, along it
-    for (std::size_t i = 0; i < picture.contacts.size() && i < 1000; ++i) {
-      const Point3& p = picture.contacts[i].point;
-      if (!region.contains(p)) continue;
-      if (std::abs(coordinate(picture.part->nearest(p).normal, axis)) < 0.3) {
-        sideways.push_back({coordinate(p, axis), i});
-        continue;
-      }
-      const std::optional<double> side = behindFace(*picture.part, p, axis, depth);
-      if (!side) continue;
-      std::optional<double>& first = behind[*side < coordinate(p, axis) ? 1 : 0];
-      if (!first) first = side;
-    }
-    if (!sideways.empty()) {
-      // The coordinate that most contacts share; of equals the first.
-      std::size_t best = 0, most = 0;
-      for (std::size_t i = 0; i < sideways.size(); ++i) {
-        const auto same =
-            static_cast<std::size_t>(std::count_if(sideways.begin(), sideways.end(), [&](const Candidate& c) {
-              return std::abs(c.at - sideways[i].at) < 1e-3;
-            }));
-        if (same > most) {
-          most = same;
-          best = i;
-        }
-      }
-      out.at[axis] = sideways[best].at;
-      out.contact[axis] = sideways[best].contact;
-      continue;
-    }
-    if (behind[0] || behind[1]) { // touched from both sides: between them
-      out.at[axis] = behind[0] && behind[1] ? (*behind[0] + *behind[1]) / 2
-                     : behind[0]            ? *behind[0]
-                                            : *behind[1];
-      continue;
-    }
-    Bounds way;
-    for (const PictureMove& move : picture.moves) {
-      if (isDrawn(move) && move.kind != PathKind::Rapid) way.add(move.to);
-    }
-    if (way.any()) out.at[axis] = coordinate((way.region().least + way.region().most) * 0.5, axis);
-    if (cutsMaterial(*picture.part, region, axis, out.at[axis])) continue;
-    if (!inside) inside = insideOf(*picture.part, region);
-    if (inside) out.at[axis] = coordinate(*inside, axis);
+  const ToolPoint point = toolPointAt(picture, move);
+  WorkZero out{frame.name, frame.shift, 0, 0, point.name};
+  out.at.z -= point.below;
+  if (!isDrawn(out.at)) return std::nullopt;
+  constexpr double kSame = 1e-6; // mm
+  if (frame.length && std::abs(point.below - *frame.length) > kSame) {
+    out.above = point.below - *frame.length;
+    out.length = *frame.length;
   }
   return out;
 }

@@ -1,12 +1,12 @@
-// Which part of the machine's space a picture shows, and where it cuts the part.
+// Which part of the machine's space a picture shows.
 #pragma once
 
 #include "sim/picture/Picture.h"
 
-#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace dotek::sim {
@@ -42,27 +42,15 @@ std::vector<std::string> cutSidesOf(const Picture& picture, const Region& region
 // What is to be said of them; "": the part is whole.
 std::string cutNote(const Picture& picture, const Region& region);
 
-// The work coordinates in which most was measured: where in the machine's space the tip of the probe (without
-// a probe: the gauge line) is at their zero. Nothing: they are not known.
+// The work coordinates in which most was measured. Nothing: they are not known.
 struct WorkZero {
   std::string name;
-  Point3 at;
+  Point3 at;              // where in the machine's space the tool's point is while the control shows zero
+  double above = 0;       // Z of the system counts for a point that much above it: another length is in force
+  double length = 0;      // this one, where `above` is not 0
+  std::string_view point; // "tip"; "": the gauge line
+  Point3 zero() const { return at + Point3{0, 0, above}; } // of the system
 };
 std::optional<WorkZero> workZeroOf(const Picture& picture);
-
-// The miss with which the search of a run ended: its last measuring move met nothing. Place in
-// Picture::errors.
-std::optional<std::size_t> lastMissOf(const Picture& picture);
-
-// Where the sections lie: X of YZ, Y of XZ, Z of XY. Where the last search met nothing, through the ball at
-// its end, or just inside the face that is nearest there. Else at a contact that the plane cuts from the
-// side, so that the touched surface is seen; else just after a touched face, or between two touched from both
-// sides; else in the middle of the path, or of the part where there is no material.
-struct SectionPlanes {
-  std::array<double, 3> at{};                          // by axis
-  std::array<std::optional<std::size_t>, 3> contact{}; // that it goes through, place in Picture::contacts
-  std::array<std::optional<std::size_t>, 3> miss{};    // the same in Picture::errors
-};
-SectionPlanes sectionPlanesOf(const Picture& picture, const Region& region);
 
 } // namespace dotek::sim

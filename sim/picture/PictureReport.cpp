@@ -79,15 +79,37 @@ std::string bannerSvg(const PictureResult& result, double left, double width, do
                      bannerColour(result.verdict), text);
 }
 
+namespace {
+
+// XML of a text for a page; a number does not break at its sign.
+std::string unbroken(std::string_view text, std::size_t most) {
+  std::string out;
+  const std::string all = xmlText(text, most);
+  for (std::size_t at = 0; at < all.size();) {
+    const std::size_t blank = std::min(all.find(' ', at), all.size());
+    const std::string word = all.substr(at, blank - at);
+    const std::size_t sign = word.find('-');
+    const bool isNumber = sign != std::string::npos && sign <= 1 && word.size() < 24 &&
+                          sign + 1 < word.size() && word[sign + 1] >= '0' && word[sign + 1] <= '9';
+    out += isNumber ? fmt::format("<span class=\"n\">{}</span>", word) : word;
+    if (blank < all.size()) out += ' ';
+    at = blank + 1;
+  }
+  return out;
+}
+
+} // namespace
+
 std::string bannerHtml(const PictureResult& result) {
   std::string out = fmt::format("<div id=\"banner\" class=\"{}\" style=\"background:{}\" role=\"status\">\n"
                                 "<strong>{}</strong>\n<div><p>{}</p>\n",
                                 verdictName(result.verdict), bannerColour(result.verdict),
-                                xmlText(result.word, 100), xmlText(result.text, 600));
+                                xmlText(result.word, 100), unbroken(result.text, 600));
   if (!result.place.empty() || !result.block.empty())
     out += fmt::format("<p class=\"at\">{}{} <code>{}</code></p>\n", result.place.empty() ? "" : "at ",
                        xmlText(result.place, 300), xmlText(result.block, 200));
-  if (!result.position.empty()) out += fmt::format("<p class=\"at\">{}</p>\n", xmlText(result.position, 200));
+  if (!result.position.empty())
+    out += fmt::format("<p class=\"at\">{}</p>\n", unbroken(result.position, 200));
   out += "</div>\n<ul>";
   for (const std::string& count : result.counts)
     out += fmt::format("<li>{}</li>", xmlText(count, 60));

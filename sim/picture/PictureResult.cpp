@@ -77,7 +77,16 @@ std::string positionAt(const Picture& picture, const Point3& centre, std::size_t
   const auto isFar = [](double value) { return std::abs(value) > kDrawn; }; // not: no number
   const bool isNowhere = std::isnan(centre.x) && std::isnan(centre.y) && std::isnan(centre.z);
   if (isNowhere || isFar(centre.x) || isFar(centre.y) || isFar(centre.z)) return "";
-  const std::string machine = "machine " + pointText(gaugeAt(picture, centre, move), picture.decimals);
+  const Point3 gauge = gaugeAt(picture, centre, move);
+  const ToolPoint point = toolPointAt(picture, move);
+  // Both frames by name: work coordinates are of the one or the other, as a length is in force.
+  std::string machine = "machine " + pointText(gauge - Point3{0, 0, point.below}, picture.decimals);
+  if (point.below != 0) {
+    machine += fmt::format(" ({})", point.name);
+    if (std::isfinite(gauge.z))
+      machine += fmt::format(", Z{} (gauge line)", fixedText(gauge.z, picture.decimals));
+  }
+  machine += "; mm";
   const std::optional<Point3> work = workAt(picture, centre, move);
   if (!work) return machine;
   return fmt::format("{} {}; {}", picture.frames[picture.moves[move].frame].name,
@@ -159,6 +168,7 @@ PictureResult resultOf(const Picture& picture, const RunFacts& facts) {
                             : named;
   if ((crashed || measuredNothing || faulty) && shown != picture.errors.end()) {
     const PictureError& error = *shown;
+    out.error = static_cast<std::size_t>(shown - picture.errors.begin());
     if (const std::optional<std::size_t> block = blockOf(picture, error)) {
       out.place = placeOf(picture.blocks[*block]);
       out.block = picture.blocks[*block].text;

@@ -1,5 +1,5 @@
 #include "sim/picture/Picture.h"
-#include "sim/picture/PictureRegion.h"
+#include "sim/picture/PicturePlanes.h"
 #include "sim/picture/PictureReport.h"
 #include "sim/picture/PictureResult.h"
 #include "sim/picture/PictureText.h"
@@ -112,6 +112,31 @@ struct Sheet {
   double scale = 1;
 };
 
+// What the blue numbers are. The zero is that of the banner: its work position less its place in the machine.
+std::vector<std::string> zeroLines(const WorkZero& zero, int decimals) {
+  const auto number = [&](double value) { return fixedText(value, decimals); };
+  std::vector<std::string> out;
+  // Mikroprog has one system, which has no number.
+  if (zero.name == "work")
+    out.push_back("blue numbers: as the control counts, zero at machine");
+  else if (zero.above == 0)
+    out.push_back(fmt::format("blue numbers: work coordinates {}, zero at machine", zero.name));
+  else
+    out.push_back(fmt::format("blue numbers: {} as shown with the {} there, zero at machine", zero.name,
+                              zero.point.empty() ? "gauge line" : zero.point));
+  out.push_back(pointText(zero.zero(), decimals));
+  if (zero.above == 0) return out;
+  const std::string counts =
+      zero.length == 0 ? "no tool length is in force: Z counts for the gauge line"
+                       : fmt::format("the length in force is {}: Z counts for a point", number(zero.length));
+  for (std::string& line : wrapped(fmt::format("{}, {} {} the {}", counts, number(std::abs(zero.above)),
+                                               zero.above > 0 ? "above" : "below",
+                                               zero.point.empty() ? "gauge line" : zero.point),
+                                   60))
+    out.push_back(std::move(line));
+  return out;
+}
+
 std::string drawLegend(const Sheet& sheet, double left, double top, double& bottom) {
   const Picture& picture = sheet.picture;
   const auto count = [&](auto&& holds) {
@@ -145,11 +170,17 @@ std::string drawLegend(const Sheet& sheet, double left, double top, double& bott
     constexpr const char* kNames[] = {"YZ", "XZ", "XY"};
     constexpr const char* kAxes[] = {"X", "Y", "Z"};
     for (std::size_t axis = 3; axis-- > 0;) {
-      std::string line =
-          fmt::format("{} at {} {}", kNames[axis], kAxes[axis], fixedText(sheet.planes.at[axis], 3));
+      std::string line = fmt::format("{} at {} {}", kNames[axis], kAxes[axis],
+                                     fixedText(sheet.planes.at[axis], picture.decimals));
       if (sheet.planes.contact[axis])
         line += fmt::format(", through contact {}", *sheet.planes.contact[axis] + 1);
-      if (sheet.planes.miss[axis]) line += ", through miss " + errorNames(picture)[*sheet.planes.miss[axis]];
+      const auto named = [&](std::size_t error) {
+        return (isMiss(picture.errors[error]) ? "miss " : "error ") + errorNames(picture)[error];
+      };
+      if (sheet.planes.error[axis]) line += ", through " + named(*sheet.planes.error[axis]);
+      if (const auto beside = sheet.planes.beside[axis])
+        line += fmt::format(", inside the face {} {}",
+                            touchAt(picture, picture.errors[*beside]) ? "at" : "nearest to", named(*beside));
       legend.text(line, 56);
     }
   } else {
@@ -174,12 +205,8 @@ std::string drawLegend(const Sheet& sheet, double left, double top, double& bott
     for (const std::string& line : wrapped(toolNote(tool, picture.decimals), 60))
       legend.text(line, 0, tool.listed ? "#4a525c" : "#8a4b00");
   if (const std::optional<WorkZero> zero = workZeroOf(picture)) {
-    // Mikroprog has one system, which has no number.
-    legend.text(zero->name == "work"
-                    ? std::string("blue numbers: as the control counts, zero at machine")
-                    : fmt::format("blue numbers: work coordinates {}, zero at machine", zero->name),
-                0, kWorkColour);
-    legend.text(pointText(zero->at, picture.decimals), 0, kWorkColour);
+    for (const std::string& line : zeroLines(*zero, picture.decimals))
+      legend.text(line, 0, kWorkColour);
   }
   for (const std::string& note : notesOf(picture, sheet.region))
     legend.text(note, 0, "#8a4b00");
@@ -248,9 +275,9 @@ std::string pictureSvg(const Picture& picture) {
       continue;
     }
     const Section section = sectionOf(*picture.part, across, sheet.planes.at[across], sheet.region);
-    frame.heading =
-        fmt::format("{} at {} {}", section.areas.empty() ? "no material" : "section",
-                    std::string_view("XYZ").substr(across, 1), fixedText(sheet.planes.at[across], 3));
+    frame.heading = fmt::format("{} at {} {}", section.areas.empty() ? "no material" : "section",
+                                std::string_view("XYZ").substr(across, 1),
+                                fixedText(sheet.planes.at[across], picture.decimals));
     views += drawView(picture, sheet.region, frame, &section);
   }
   double bottom = low + size.z * s + 56;

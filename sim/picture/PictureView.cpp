@@ -1,8 +1,11 @@
 #include "sim/picture/PictureView.h"
 
+#include "sim/picture/PicturePlanes.h"
+#include "sim/picture/PictureProbe.h"
 #include "sim/picture/PictureText.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -60,6 +63,7 @@ public:
         fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"#8b939e\"/>\n",
                     px(box_.left), px(box_.top), px(box_.right - box_.left), px(box_.bottom - box_.top));
     setter();
+    failure();
     balls();
     for (const PathKind kind : {PathKind::Measuring, PathKind::Protected, PathKind::Feed, PathKind::Rapid})
       way(kind);
@@ -299,6 +303,29 @@ private:
     at[1] += picture_.setter->diameter / 4 * frame_.scale;
     label(at, "tool setter", kSetterColour);
     out_ += "</g>\n";
+  }
+
+  // Where the run failed: seen when the sheet is as small as a telephone, with the probe as it stood there.
+  void failure() {
+    const std::optional<std::size_t> place = failureOf(picture_);
+    if (!place || !isSeen(picture_.errors[*place].at)) return;
+    const PictureError& error = picture_.errors[*place];
+    const PlanePoint at = sheet(on(error.at));
+    // What met: of stem and body it is away from the ball.
+    const std::optional<Part::Nearest> touch = touchAt(picture_, error);
+    const bool isInside = touch && picture_.part->distance(error.at) < 0;
+    const PlanePoint spot = touch && !isInside ? sheet(on(touch->point)) : at;
+    const bool probe = hasProbe(picture_) && !isMiss(error) && error.move < picture_.moves.size() &&
+                       picture_.moves[error.move].tool == 0;
+    // From above stem and body are of interest only where they meet something.
+    const bool byBall = touch && (touch->point - error.at).length() < picture_.probe.ballRadius() + 0.1;
+    const bool outlined = probe && (frame_.across != 2 || (touch && !byBall && !isInside));
+    out_ += fmt::format("<g class=\"failure\" clip-path=\"url(#clip{0})\" fill=\"{1}\" fill-opacity=\"{2}\" "
+                        "stroke=\"{1}\" stroke-opacity=\"0.55\">{3}<circle cx=\"{4}\" cy=\"{5}\" r=\"26\" "
+                        "fill-opacity=\"0.2\" stroke=\"none\"/></g>\n",
+                        frame_.across, kErrorColour, frame_.across == 2 ? "0" : "0.07",
+                        outlined ? probeOutline(picture_.probe, frame_.across, at, frame_.scale) : "",
+                        px(spot[0]), px(spot[1]));
   }
 
   // The ball where it touched and where something went wrong.

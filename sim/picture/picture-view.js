@@ -342,6 +342,12 @@ function makeView(canvas, data) {
     data.errors.forEach((error, i) => {
       if (!error.drawn) return;
       const [x, y] = project(...error.at);
+      if (i === data.fails) { // seen at a glance
+        paint.globalAlpha = 0.22;
+        paint.fillStyle = theme.error;
+        paint.beginPath(); paint.arc(x, y, 24, 0, 7); paint.fill();
+        paint.globalAlpha = 1;
+      }
       paint.lineWidth = 3; paint.strokeStyle = theme.error;
       paint.beginPath();
       if (error.miss) {
@@ -393,6 +399,12 @@ function makeView(canvas, data) {
     paint.fillText(Number(length.toPrecision(3)) + " mm", 118 + px, height - 15);
   }
 
+  // Where the probe stands: at the end of the move, and where the run failed at the place of that.
+  function placeAt(current) {
+    const failed = data.fails === null ? undefined : data.errors[data.fails];
+    return failed !== undefined && failed.move === current && failed.drawn ? failed.at : data.moves[current] && data.moves[current].to;
+  }
+
   function draw(current) {
     if (width < 2 || height < 2) return;
     aim();
@@ -402,7 +414,8 @@ function makeView(canvas, data) {
     colours.set(partColours);
     depths.set(partDepths);
     const move = data.moves[current];
-    if (show.probe && move !== undefined && move.drawn) drawProbe(move.to, move.on, move.tool);
+    const stands = placeAt(current);
+    if (show.probe && move !== undefined && move.drawn) drawProbe(stands, move.on, move.tool);
     paint.setTransform(1, 0, 0, 1, 0, 0);
     paint.putImageData(image, 0, 0);
     paint.setTransform(dots, 0, 0, dots, 0, 0);
@@ -422,7 +435,7 @@ function makeView(canvas, data) {
     drawWay(current);
     drawMarks(current);
     if (show.probe && move !== undefined && move.drawn) { // where the ball is, even behind the part
-      const p = project(...move.to);
+      const p = project(...stands);
       const radius = move.tool !== undefined ? move.tool.radius : data.probe === null ? 0 : data.probe.ball;
       paint.globalAlpha = radius === 0 || isHidden(p[0], p[1], p[2] + radius) ? 0.9 : 0.25;
       paint.setLineDash([]);
@@ -482,5 +495,5 @@ function makeView(canvas, data) {
     theme = readTheme();
     partIsDrawn = false;
   }
-  return { camera, show, draw, where, turnTo, resize, fit, change, zoomAt, retheme, redoPart: () => { partIsDrawn = false; } };
+  return { camera, show, draw, where, placeAt, turnTo, resize, fit, change, zoomAt, retheme, redoPart: () => { partIsDrawn = false; } };
 }

@@ -64,6 +64,17 @@ window.onerror = (message, source, line) => {
   };
   const nameOf = (move) => frames[frameOf[move]] === undefined ? "work" : frames[frameOf[move]][0];
 
+  // A text of which no number breaks at its sign.
+  const say = (node, text) => {
+    text.split(/((?:^|(?<= ))[A-Z]?-[0-9][0-9.]*)/).forEach((part, i) => {
+      if (i % 2 === 0) return node.append(part);
+      const whole = document.createElement("span");
+      whole.className = "n";
+      whole.textContent = part;
+      node.append(whole);
+    });
+  };
+
   function redraw() {
     if (waiting) return;
     waiting = true;
@@ -130,7 +141,7 @@ window.onerror = (message, source, line) => {
     const gauge = gaugeOf(move.to, current), work = workOf(gauge, current);
     return { index: current, count: moves.length, position: move.to, text: knownOf(move.to, current).map(number), machine: gauge.map(number),
       work: work === null ? null : work.map(number), system: nameOf(current), kind: data.kinds[move.kind].name, probeOn: move.on, block: move.block,
-      place: (data.blocks[move.block] || ["", ""])[1], drawnAt: move.drawn ? view.where(move.to) : null };
+      place: (data.blocks[move.block] || ["", ""])[1], drawnAt: move.drawn ? view.where(view.placeAt(current)) : null };
   }
   function go(index) {
     if (moves.length === 0) return;
@@ -160,7 +171,7 @@ window.onerror = (message, source, line) => {
     if (error !== undefined) {
       const red = document.createElement("div");
       red.className = "error";
-      red.textContent = data.errors[error].letter + data.errors[error].number + ": " + data.errors[error].text;
+      say(red, data.errors[error].letter + data.errors[error].number + ": " + data.errors[error].text);
       here.append(red);
     }
     showBlock();
@@ -195,7 +206,7 @@ window.onerror = (message, source, line) => {
   // ---- errors: those before misses
   [false, true].flatMap((miss) => data.errors.filter((error) => error.miss === miss)).forEach((error) => {
     const item = document.createElement("li"), button = document.createElement("button");
-    button.textContent = error.letter + error.number + "  " + (data.blocks[error.block] ? data.blocks[error.block][1] + ": " : "") + error.text;
+    say(button, error.letter + error.number + "  " + (data.blocks[error.block] ? data.blocks[error.block][1] + ": " : "") + error.text);
     button.addEventListener("click", () => go(error.move));
     item.append(button);
     byId("errors").append(item);
@@ -300,7 +311,7 @@ window.onerror = (message, source, line) => {
   const wanted = () => { const match = /^#go=(\d+)$/.exec(location.hash); return match ? Number(match[1]) : opens; };
   window.addEventListener("hashchange", () => go(wanted()));
   layRows();
-  if (data.opens !== null && moves[opens].drawn) view.turnTo(moves[opens].to);
+  if (data.opens !== null && moves[opens] !== undefined && moves[opens].drawn) view.turnTo(view.placeAt(opens));
   go(wanted());
   view.draw(current); // at once: what prints or photographs the page waits for no frame
 })();

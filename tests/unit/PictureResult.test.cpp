@@ -103,14 +103,17 @@ TEST_CASE("result: an alarm is the banner of both pictures, with number, text an
   CHECK(result.place == "O0412, called by O9000; web.nc:41");
   CHECK(result.block == "#3000=7(WEB TOO WIDE)");
   // The last move ends with the ball's centre at Z-407, 177 below the gauge line.
-  CHECK(result.position == "G55 X123.300 Y50.000 Z20.000; machine X-176.700 Y-150.000 Z-230.000");
+  CHECK(result.position == "G55 X123.300 Y50.000 Z20.000; machine X-176.700 Y-150.000 Z-410.000 (tip), "
+                           "Z-230.000 (gauge line); mm");
+  CHECK_FALSE(result.error.has_value());
   CHECK(endingText(facts) == "ALARM 3007: WEB <TOO> WIDE");
   picture.result = result;
   for (const std::string& shown : {pictureSvg(picture), pictureHtml(picture)}) {
     CHECK(shown.find("id=\"banner\" class=\"fail\"") != std::string::npos);
     CHECK(shown.find("WEB &lt;TOO&gt; WIDE") != std::string::npos);
     CHECK(shown.find("<title>ALARM 3007 - ") != std::string::npos);
-    CHECK(shown.find(result.position) != std::string::npos);
+    for (const char* number : {"X-176.700", "Z-410.000", " (tip), ", "Z-230.000"})
+      CHECK(shown.find(number) != std::string::npos);
   }
 }
 
@@ -154,6 +157,7 @@ TEST_CASE("result: a collision comes before the alarm that follows from it; a mi
   CHECK(result.word == "COLLISION");
   CHECK(result.text == "the probe runs into the part in rapid <G0>; then ALARM 3092: PROBE OPEN");
   CHECK(result.place == "bore.nc:20");
+  CHECK(result.error == 0);
   CHECK(result.block == "G0 X-200.");
   CHECK(result.counts ==
         std::vector<std::string>{"1 collision", "1 probe fault", "2 misses", "6 contacts", "20 moves"});

@@ -1,3 +1,4 @@
+#include "sim/picture/PicturePlanes.h"
 #include "sim/picture/Sections.h"
 #include "sim/picture/SurfaceMesh.h"
 #include "tests/unit/PictureHelper.h"
@@ -280,6 +281,37 @@ TEST_CASE("picture: the zero of the work coordinates is where the probe's tip is
   CHECK(zero->name == "G54");
   // 180 from the gauge line to the tip.
   CHECK(zero->at == Point3{-300, -200, -403});
+  CHECK(zero->zero() == zero->at);
+}
+
+TEST_CASE("picture: banner, legend and blue numbers agree whatever length is in force") {
+  Picture picture = borePicture();
+  const auto legend = [&] { return pictureSvg(picture); };
+  const auto says = [&](const std::string& text) { return legend().find(text) != std::string::npos; };
+  // The gauge line counts: the system's zero is 180 above the place where the tip is at Z0.
+  picture.frames = {{"G54", {-300, -200, -400}, 0, 0.0}};
+  auto zero = workZeroOf(picture);
+  REQUIRE(zero.has_value());
+  CHECK(zero->at == Point3{-300, -200, -580});
+  CHECK(zero->zero() == Point3{-300, -200, -400});
+  CHECK(says(">blue numbers: G54 as shown with the tip there, zero at machine<"));
+  CHECK(says(">X-300.000 Y-200.000 Z-400.000<"));
+  CHECK(says("no tool length is in force: Z counts for the gauge line,<"));
+  picture.frames = {{"G54", {-300, -200, -280}, 0, 120.0}};
+  CHECK(says(">X-300.000 Y-200.000 Z-400.000<"));
+  CHECK(says("the length in force is 120.000: Z counts for a point, 60.000"));
+  picture.frames = {{"G54", {-300, -200, -220}, 0, 180.0}};
+  CHECK(says(">blue numbers: work coordinates G54, zero at machine<"));
+  CHECK(says(">X-300.000 Y-200.000 Z-400.000<"));
+  CHECK_FALSE(says("in force"));
+  // A probe whose length goes down to the centre of its ball is shown by that.
+  picture.probe.lengthToTip = false;
+  zero = workZeroOf(picture);
+  REQUIRE(zero.has_value());
+  CHECK(zero->at == Point3{-300, -200, -400});
+  picture.decimals = 4;
+  CHECK(says(">X-300.0000 Y-200.0000 Z-400.0000<"));
+  CHECK(says(">section at Z -407.9700<"));
 }
 
 TEST_CASE("picture sections lie where contacts are seen from the side, or just below them") {
@@ -324,7 +356,7 @@ TEST_CASE("picture sections go through the miss with which the search ends") {
   SectionPlanes planes = sectionPlanesOf(picture, regionOf(picture));
   CHECK(planes.at == std::array<double, 3>{-280, -190, -405});
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    CHECK(planes.miss[axis] == 0);
+    CHECK(planes.error[axis] == 0);
     CHECK_FALSE(planes.contact[axis].has_value());
   }
   CHECK(pictureSvg(picture).find("XZ at Y -190.000, through miss M1<") != std::string::npos);
@@ -342,15 +374,101 @@ TEST_CASE("picture sections go through the miss with which the search ends") {
   CHECK(planes.at[1] == -195);
   CHECK(planes.at[2] < -400);
   CHECK(planes.at[2] > -402);
-  CHECK(planes.miss[0] == 0);
-  CHECK_FALSE(planes.miss[2].has_value());
+  CHECK(planes.error[0] == 0);
+  CHECK_FALSE(planes.error[2].has_value());
 
   // A touch that comes later is what the picture is about.
   picture = missPicture({-290, -190, -405}, {-280, -190, -405});
   picture.moves.push_back({PathKind::Measuring, {-245, -150, -382}, {-245, -150, -396.97}, true, 0});
   picture.contacts.push_back({{-245, -150, -399.97}, picture.moves.size() - 1});
   planes = sectionPlanesOf(picture, regionOf(picture));
-  CHECK_FALSE(planes.miss[2].has_value());
+  CHECK_FALSE(planes.error[2].has_value());
   CHECK(planes.contact[2].has_value());
   CHECK(pictureHtml(picture).find("\"opens\":null,") != std::string::npos);
+}
+
+namespace {
+
+// The picture of a run that ends with a rapid, named by the banner.
+Picture rapidPicture(const Point3& from, const Point3& to, const Point3& at) {
+  Picture picture = borePicture();
+  picture.errors.clear();
+  picture.blocks.push_back({"G0 Z-3.", "bore.nc:91"});
+  picture.moves.push_back({PathKind::Rapid, from, to, true, picture.blocks.size() - 1});
+  picture.errors.push_back({at, "a rapid move runs into the part", picture.moves.size() - 1});
+  picture.result = PictureResult{};
+  picture.result->verdict = Verdict::Fail;
+  picture.result->error = 0;
+  return picture;
+}
+
+std::string headingOf(const std::string& svg, const std::string& view) {
+  const std::size_t begin = svg.find("<g id=\"" + view + "\"");
+  return svg.substr(begin, svg.find("</g>\n<g id", begin) - begin);
+}
+
+} // namespace
+
+TEST_CASE("picture sections go through the place where the run failed") {
+  // Onto the upper face: the three sections show the face and the ball at it, touches before it or not.
+  const Point3 at{-282, -186, -396.97};
+  Picture picture = rapidPicture({-282, -186, -380}, {-282, -186, -403}, at);
+  const SectionPlanes planes = sectionPlanesOf(picture, regionOf(picture));
+  CHECK(planes.at[0] == doctest::Approx(-282));
+  CHECK(planes.at[1] == doctest::Approx(-186));
+  CHECK(planes.at[2] < -400);
+  CHECK(planes.at[2] > -402);
+  CHECK(planes.error[0] == 0);
+  CHECK(planes.error[1] == 0);
+  CHECK(planes.beside[2] == 0);
+  CHECK_FALSE(planes.contact[2].has_value());
+  const std::string svg = pictureSvg(picture);
+  CHECK(svg.find("XZ at Y -186.000, through error E1<") != std::string::npos);
+  CHECK(svg.find(", inside the face at error E1<") != std::string::npos);
+  for (const char* view : {"XY", "XZ", "YZ"})
+    CHECK(headingOf(svg, view).find("class=\"failure\"") != std::string::npos);
+  const std::string html = pictureHtml(picture);
+  CHECK(html.find(fmt::format("\"opens\":{},", picture.moves.size() - 1)) != std::string::npos);
+  CHECK(html.find("\"fails\":0,") != std::string::npos);
+
+  // Nothing but the banner says which error: a run that passed shows what it touched.
+  picture.result->error.reset();
+  picture.result->verdict = Verdict::Pass;
+  CHECK_FALSE(failureOf(picture).has_value());
+  CHECK(pictureSvg(picture).find("class=\"failure\"") == std::string::npos);
+}
+
+TEST_CASE("picture sections: of a stem or a body that hits the part they show what it hits") {
+  // The ball is 20 below the plate, the stem comes against its side.
+  Picture picture = rapidPicture({-330, -160, -440}, {-290, -160, -440}, {-301.95, -160, -440});
+  PartBuilder builder;
+  builder.box({-300, -200, -420}, {-180, -120, -400});
+  picture.part = *finish(builder);
+  const auto touch = touchAt(picture, picture.errors[0]);
+  REQUIRE(touch.has_value());
+  CHECK(touch->point.x == doctest::Approx(-300));
+  const SectionPlanes planes = sectionPlanesOf(picture, regionOf(picture));
+  CHECK(planes.at[0] > -300);
+  CHECK(planes.at[0] < -296);
+  CHECK(planes.at[1] == doctest::Approx(-160));
+  CHECK(picture.part->distance({-299, -160, planes.at[2]}) < 0);
+  // In free air there is no touch: an over-travel.
+  picture.errors[0].at = {-330, -160, -440};
+  CHECK_FALSE(touchAt(picture, picture.errors[0]).has_value());
+}
+
+TEST_CASE("picture sections: a run that begins in the part is cut where the ball is") {
+  const Point3 at{-290, -190, -410};
+  const Picture picture = rapidPicture(at, {-290, -190, -380}, at);
+  CHECK(sectionPlanesOf(picture, regionOf(picture)).at == std::array<double, 3>{-290, -190, -410});
+}
+
+TEST_CASE("picture sections: an alarm after a miss is about the miss") {
+  Picture picture = missPicture({-290, -190, -405}, {-280, -190, -405});
+  picture.moves.push_back({PathKind::Measuring, {-245, -150, -382}, {-245, -150, -396.97}, true, 0});
+  picture.contacts.push_back({{-245, -150, -399.97}, picture.moves.size() - 1});
+  picture.result = PictureResult{};
+  CHECK_FALSE(failureOf(picture).has_value());
+  picture.result->verdict = Verdict::Fail;
+  CHECK(failureOf(picture) == 0);
 }

@@ -1,4 +1,4 @@
-#include "sim/picture/PictureRegion.h"
+#include "sim/picture/PicturePlanes.h"
 #include "sim/picture/PictureResult.h"
 #include "sim/picture/PictureText.h"
 #include "sim/picture/PictureView.h"
