@@ -349,7 +349,9 @@ private:
     if (!id) return;
     if (kind == InputKind::Suf) return suf(*id);
     if (kind == InputKind::Nc) {
-      compilation_.addPrograms(*id);
+      const auto& programs = compilation_.addPrograms(*id);
+      if (programs.programs.empty())
+        session_.diagnostics().report<diag::NoProgram>({*id, 0, 0}, inputName(path), "checked");
       return;
     }
     const gibbs::ParseContext context{session_.sources(), session_.gibbsKeywords(), session_.limits(),

@@ -2,6 +2,7 @@
 
 #include "frontend/macrob/Lower.h"
 #include "frontend/macrob/Parse.h"
+#include "support/messages/Commands.h"
 
 namespace dotek::targets {
 
@@ -13,7 +14,10 @@ std::optional<ir::ProgramFile> readBack(const std::string& name, std::string tex
   const FileId id = sources.add(SourceFile(name, std::move(text), Encoding::Utf8));
   const macrob::File tree = macrob::parse(id, sources, limits, found);
   if (found.hasErrors()) return std::nullopt;
-  return macrob::lower(tree, control, sources, found);
+  auto out = macrob::lower(tree, control, sources, found);
+  if (!out || !out->programs.empty()) return out;
+  found.report<diag::NoProgram>({}, name, "compared");
+  return std::nullopt;
 }
 
 std::string firstError(const Diagnostics& found) {

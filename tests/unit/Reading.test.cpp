@@ -239,6 +239,30 @@ TEST_CASE("reading: UTF-16, empty files and images in a folder") {
   CHECK(run.err == "3 files checked, 2 skipped (nothing.txt: empty; probe.bmp: an image)\n");
 }
 
+TEST_CASE("reading: an NC file without a program is no clean one") {
+  const DataFolder folder;
+  folder.write("m/cut.nc", "%\n%\n");
+  const CommandResult run = dotekIn(folder, {"lint", "m"});
+  CHECK(run.status == 1);
+  CHECK(holds(run.out, "m/cut.nc:1:1: error: `m/cut.nc` holds no program"));
+}
+
+TEST_CASE("reading: a translation without a program is refused, whatever the source") {
+  const DataFolder folder;
+  folder.write("side.nc", "%\nO1\nG90 G54\n#500=1.\nM30\n%\n");
+  folder.write("one.cycle", "cycle one \"One\"\n\nresult r : length\n\nr = 1 mm\n");
+  for (const std::string text : {"", "%\n", "%\n%\n"}) {
+    CAPTURE(text);
+    folder.write("t.nc", text);
+    for (const std::string source : {"side.nc", "one.cycle"}) {
+      const CommandResult run =
+          dotekIn(folder, {"verify", source, "--to", "fanuc", "--translation", "t.nc", "--cases", "2"});
+      CHECK(run.status == 1);
+      CHECK_MESSAGE(holds(run.err, "t.nc` cannot be read back: `t.nc` holds no program"), run.err);
+    }
+  }
+}
+
 TEST_CASE("reading: what is no input is one error that names the kinds, in every command") {
   const DataFolder folder;
   folder.write("a.js", "var a = 1;\nfunction f(x) {\n  if (x == 3) { return x; }\n}\n");
