@@ -26,6 +26,17 @@ void check(const Project& project, Report& report) {
   std::set<std::uint32_t> read; // in any
   eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
     Numbers& mine = programs.emplace_back();
+    // `#7=5063`, and `#[#7]` later: the number is meant.
+    std::set<std::uint32_t> counts;
+    for (const ir::ProgramStatement& statement : program.body)
+      ir::eachNode(statement, [&](const ir::Expression& node) {
+        const auto* variable = std::get_if<ir::MachineVariable>(&node.node);
+        if (variable == nullptr) return;
+        ir::eachNode(variable->number, [&](const ir::Expression& inner) {
+          if (!std::holds_alternative<ir::MachineVariable>(inner.node)) return;
+          if (const auto number = variableNumber(inner)) counts.insert(*number);
+        });
+      });
     for (const ir::ProgramStatement& statement : program.body) {
       if (const auto number = storedNumber(statement)) mine.stored.emplace(*number, statement.origin.range());
       eachRead(statement, [&](std::uint32_t number, SourceRange) { read.insert(number); });
@@ -38,12 +49,13 @@ void check(const Project& project, Report& report) {
                          callOf(statement) != nullptr || std::holds_alternative<ir::Raise>(statement.node);
       const auto* store = std::get_if<ir::Store>(&statement.node);
       const auto* whole = store == nullptr ? nullptr : std::get_if<ir::Constant>(&store->value->node);
-      if (whole != nullptr && isSystem(whole->value) && whole->digits.find('.') == std::string::npos)
+      const auto target = storedNumber(statement);
+      if (whole != nullptr && !(target && counts.contains(*target)) && isSystem(whole->value) &&
+          whole->digits.find('.') == std::string::npos)
         report.at(store->value->range.hasPlace() ? store->value->range : statement.origin.range(),
                   "{0} is a number here, and #{0} is a state of the control; write `#{0}` if that is meant",
                   whole->digits);
       // #500=500+#1, and #[150+141]: the number itself is where its variable belongs.
-      const auto target = storedNumber(statement);
       bool lost = false;
       if (store != nullptr && target && std::holds_alternative<ir::Binary>(store->value->node))
         ir::eachNode(store->value, [&](const ir::Expression& node) {
