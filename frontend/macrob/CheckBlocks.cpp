@@ -544,6 +544,13 @@ void wearInGeometry(const CheckedProgram& input, Report& report) {
     if (saysWear) writesWear = false;
   }
   if (writes.empty() || writesWear) return;
+  if (control != nullptr) {
+    report.at(writes.front()->range,
+              "the program says wear, and this writes the geometry: on the {}, #{}.. is the geometry of tool "
+              "lengths and #{}.. the wear; the length of the tool is overwritten; write `#[{}+..]`",
+              control->title, geometry + 1, wear + 1, wear);
+    return;
+  }
   report.at(
       writes.front()->range,
       "the program says wear, and this writes the geometry: #{}.. is the geometry of tool lengths on a Fanuc "
