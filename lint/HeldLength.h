@@ -28,12 +28,15 @@ struct Held {
   std::optional<PositionRead> read;            // where the length comes from
   std::optional<PositionRead> length;          // #5083 itself is a term
   const LengthNumbers::Wear* wear = nullptr;   // the wear of a tool is a term
+  bool off = false;                            // a position that was read under G49 is a term
 
+  // Nothing in it has to do with lengths, whether one is in force or not.
+  bool plain() const { return lengths == 0 && !unknown && !read && !length && !off; }
   bool none() const { return lengths == 0 && !unknown; }
   bool free() const { return maybeAdded || maybeTaken; }
   bool operator==(const Held& other) const {
     return lengths == other.lengths && unknown == other.unknown && maybeAdded == other.maybeAdded &&
-           maybeTaken == other.maybeTaken && wear == other.wear &&
+           maybeTaken == other.maybeTaken && wear == other.wear && off == other.off &&
            read.has_value() == other.read.has_value() && length.has_value() == other.length.has_value();
   }
 };
@@ -53,6 +56,7 @@ inline Held sum(const Held& a, const Held& b, bool subtract) {
   out.read = a.read ? a.read : b.read;
   out.length = a.length ? a.length : b.length;
   out.wear = a.wear != nullptr ? a.wear : b.wear;
+  out.off = a.off || b.off;
   return out;
 }
 
@@ -69,6 +73,7 @@ inline Held mixed(const Held& a, const Held& b) {
   Held out;
   out.maybeAdded = a.free() || b.free();
   out.wear = a.wear != nullptr ? a.wear : b.wear;
+  out.off = a.off || b.off;
   return out;
 }
 
@@ -87,8 +92,14 @@ inline Held entryValue(std::uint32_t number) {
   return out;
 }
 
+// A position on one path, and on the other a value that no length is in: it is wrong on the first. Where both
+// come from positions, the paths may differ by whether a length is in force.
 inline Held merged(Held into, const Held& other) {
-  if (into.lengths != other.lengths) into.unknown = true;
+  const auto holds = [](const Held& one) { return one.lengths != 0 && one.read && !one.length; };
+  if (into.plain() && holds(other))
+    into.lengths = other.lengths;
+  else if (into.lengths != other.lengths && !(holds(into) && other.plain()))
+    into.unknown = true;
   if (into.unknown) into.lengths = 0;
   into.unknown = into.unknown || other.unknown;
   into.maybeAdded = into.maybeAdded || other.maybeAdded;
@@ -96,6 +107,7 @@ inline Held merged(Held into, const Held& other) {
   if (!into.read) into.read = other.read;
   if (!into.length) into.length = other.length;
   if (into.wear == nullptr) into.wear = other.wear;
+  into.off = into.off || other.off;
   return into;
 }
 

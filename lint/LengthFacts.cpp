@@ -1,11 +1,30 @@
 #include "lint/LengthFacts.h"
 
 #include "ir/Dataflow.h"
+#include "ir/Rewrite.h"
 #include "ir/Walk.h"
 
 #include <algorithm>
 
 namespace dotek::lint {
+namespace {
+
+constexpr std::uint32_t kMostSingle = 64; // variables that are looked at one by one
+
+// `#[100+#9]`: a number and what is added to it.
+struct Table {
+  double base = 0;
+  ir::ExpressionPtr index;
+};
+std::optional<Table> tableOf(const ir::ExpressionPtr& number) {
+  const auto* sum = number ? std::get_if<ir::Binary>(&number->node) : nullptr;
+  if (sum == nullptr || sum->op != ir::BinaryOp::Add) return std::nullopt;
+  if (const double* base = ir::constantValue(sum->left)) return Table{*base, sum->right};
+  if (const double* base = ir::constantValue(sum->right)) return Table{*base, sum->left};
+  return std::nullopt;
+}
+
+} // namespace
 
 std::vector<Passing> LengthFacts::passings(const std::set<std::uint32_t>& own) {
   std::vector<Passing> out;
@@ -126,7 +145,17 @@ bool LengthFacts::measuresTool() const {
 }
 
 bool LengthFacts::readsPosition() const {
-  return reads(numbers_.positions);
+  if (reads(numbers_.positions)) return true;
+  // #[5060+#9]
+  bool out = false;
+  for (const ir::ProgramStatement& statement : program_.body)
+    ir::eachNode(statement, [&](const ir::Expression& one) {
+      const auto* variable = std::get_if<ir::MachineVariable>(&one.node);
+      const auto first = variable != nullptr ? ir::firstNumber(variable->number) : std::nullopt;
+      const auto next = first ? numbers_.positions.lower_bound(*first) : numbers_.positions.end();
+      out = out || (next != numbers_.positions.end() && *next <= *first + LengthNumbers::kZ + 1);
+    });
+  return out;
 }
 
 bool LengthFacts::readsLength() const {
@@ -187,6 +216,7 @@ Held LengthFacts::variable(const ir::Expression& expression, const Fact& fact) c
   const bool position = numbers_.positions.contains(*number);
   Held out;
   if (position || numbers_.machine.contains(*number) || numbers_.length.contains(*number)) {
+    out.off = off;
     if (off) return out;
     out.lengths = 1;
     if (position) out.read = PositionRead{*number, expression.range};
@@ -264,14 +294,18 @@ Held LengthFacts::held(const ir::ExpressionPtr& value, const Fact& fact) const {
 }
 
 void LengthFacts::step(const ir::ProgramStatement& statement, Fact& fact) const {
-  if (const auto stated = statedOffset(statement)) fact.offset = *stated;
+  if (const auto stated = statedOffset(statement, otherCodes_)) fact.offset = *stated;
   if (const auto* store = std::get_if<ir::Store>(&statement.node)) {
     auto number = storedNumber(statement);
     if (!number) number = writes_.single(store->number);
     if (number) {
       if (*number < kFirstSystem) fact.values.set(*number, held(store->value, fact));
     } else {
-      lose(writes_.range(store->number), fact);
+      const auto range = writes_.range(store->number);
+      const Values copied = range ? copiedBeside(*store, *range, fact) : Values{};
+      lose(range, fact);
+      for (const auto& [one, held] : copied)
+        fact.values.set(one, held);
     }
   }
   const ir::Call* call = callOf(statement);
@@ -290,8 +324,29 @@ void LengthFacts::step(const ir::ProgramStatement& statement, Fact& fact) const 
     if (variable > kLastLocal || call->kind == ir::CallKind::Subprogram) fact.values.set(variable, held);
 }
 
+Values LengthFacts::copiedBeside(const ir::Store& store, const NumberRange& range, const Fact& fact) const {
+  Values out;
+  const auto table = tableOf(store.number);
+  if (!table || range.first >= kFirstSystem || range.last - range.first >= kMostSingle) return out;
+  for (std::uint32_t number = range.first; number <= std::min(range.last, kFirstSystem - 1); ++number) {
+    bool beside = false;
+    const auto value = ir::rewrite(store.value, [&](const ir::ExpressionPtr& one) -> ir::ExpressionPtr {
+      const auto* variable = std::get_if<ir::MachineVariable>(&one->node);
+      const auto other = variable != nullptr ? tableOf(variable->number) : std::nullopt;
+      if (!other || !ir::equal(other->index, table->index)) return one;
+      beside = true;
+      return ir::machineVariable(ir::constant(other->base + number - table->base), one->range);
+    });
+    if (!beside) return out;
+    const Held one = held(value, fact);
+    if (one.unknown || one.lengths == 0) continue;
+    const Held* before = fact.values.find(number); // it may be set in another round
+    out.emplace_back(number, merged(before != nullptr ? *before : entryValue(number), one));
+  }
+  return out;
+}
+
 void LengthFacts::lose(const std::optional<NumberRange>& range, Fact& fact) {
-  constexpr std::uint32_t kMostSingle = 64;
   const NumberRange all = range.value_or(NumberRange{1, kFirstSystem - 1});
   if (all.first >= kFirstSystem) return;
   const std::uint32_t last = std::min(all.last, kFirstSystem - 1);

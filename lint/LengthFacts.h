@@ -33,7 +33,7 @@ public:
               const std::set<std::uint32_t>& switching, std::optional<CalledUnder> called,
               const LeftBehind* left)
       : program_(program), project_(project), numbers_(numbers), switching_(switching), called_(called),
-        left_(left), writes_(program) {}
+        left_(left), writes_(program), otherCodes_(codesOfOtherGroups(program)) {}
 
   // Calls of `own` programs that pass a position.
   std::vector<Passing> passings(const std::set<std::uint32_t>& own);
@@ -63,6 +63,8 @@ protected:
   bool zeroTable(std::uint32_t first) const;
   Held held(const ir::ExpressionPtr& value, const Fact& fact) const;
   void step(const ir::ProgramStatement& statement, Fact& fact) const;
+  // `#[100+#9]=#[5060+#9]`: what those of the range get that hold a position then.
+  Values copiedBeside(const ir::Store& store, const NumberRange& range, const Fact& fact) const;
   // What is written by a computed number may have set any variable of the range.
   static void lose(const std::optional<NumberRange>& range, Fact& fact);
 
@@ -73,6 +75,7 @@ protected:
   std::optional<CalledUnder> called_; // by programs of the files
   const LeftBehind* left_;            // by programs that it calls; nullptr: nothing is known
   IndirectWrites writes_;
+  std::set<std::uint32_t> otherCodes_; // variables that hold codes of other groups
 };
 
 } // namespace dotek::lint

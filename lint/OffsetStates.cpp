@@ -22,6 +22,25 @@ Offset joined(Offset a, Offset b) {
   return Offset::Either;
 }
 
+constexpr double kNoOffset = 49;
+bool isOffsetCode(double code) {
+  return (code >= 43 && code < 45) || code == kNoOffset;
+}
+
+// The variable of a modal group that is not that of lengths, or one of `copies`.
+bool readsOtherGroup(const ir::ExpressionPtr& value, const std::set<std::uint32_t>& copies) {
+  constexpr std::uint32_t kFirstGroup = 4001, kLastGroup = 4039, kOfLengths = 4008;
+  if (!value) return false;
+  if (const auto* unary = std::get_if<ir::Unary>(&value->node);
+      unary != nullptr && (unary->op == ir::UnaryOp::NullAsZero || unary->op == ir::UnaryOp::Round ||
+                           unary->op == ir::UnaryOp::AddPoint))
+    return readsOtherGroup(unary->operand, copies);
+  const auto number = variableNumber(*value);
+  if (!number) return false;
+  return copies.contains(*number) ||
+         (*number >= kFirstGroup && *number <= kLastGroup && *number != kOfLengths);
+}
+
 } // namespace
 
 std::optional<std::uint32_t> calledProgram(const ir::ProgramStatement& statement) {
@@ -31,17 +50,33 @@ std::optional<std::uint32_t> calledProgram(const ir::ProgramStatement& statement
   return static_cast<std::uint32_t>(std::lround(*number));
 }
 
-std::optional<Offset> statedOffset(const ir::ProgramStatement& statement) {
+std::set<std::uint32_t> codesOfOtherGroups(const ir::Program& program) {
+  std::set<std::uint32_t> out, mayBeOffset;
+  for (const ir::ProgramStatement& statement : program.body) {
+    const auto* store = std::get_if<ir::Store>(&statement.node);
+    const auto number = storedNumber(statement);
+    if (store == nullptr || !number) continue;
+    const double* code = ir::constantValue(store->value);
+    const bool other = code != nullptr ? !isOffsetCode(*code) : readsOtherGroup(store->value, {});
+    (other ? out : mayBeOffset).insert(*number);
+  }
+  for (const std::uint32_t number : mayBeOffset)
+    out.erase(number);
+  return out;
+}
+
+std::optional<Offset> statedOffset(const ir::ProgramStatement& statement,
+                                   const std::set<std::uint32_t>& others) {
   const auto* block = std::get_if<ir::NcBlock>(&statement.node);
   if (block == nullptr) return std::nullopt;
   std::optional<Offset> out;
   for (const ir::Word& word : block->words) {
     if (word.address != 'G') continue;
     const double* code = ir::constantValue(word.value);
-    if (code == nullptr) out = Offset::Either;
-    if (code != nullptr && *code >= 43 && *code < 45)
+    if (code == nullptr && !readsOtherGroup(word.value, others)) out = Offset::Either;
+    if (code != nullptr && isOffsetCode(*code) && *code != kNoOffset)
       out = wordValue(*block, 'H') == 0.0 ? Offset::Off : Offset::On;
-    if (code != nullptr && *code == 49) out = Offset::Off;
+    if (code != nullptr && *code == kNoOffset) out = Offset::Off;
   }
   return out;
 }
@@ -51,8 +86,10 @@ std::set<std::uint32_t> switchingPrograms(const Project& project) {
   for (const NcFile& nc : project.programs)
     if (nc.lowered)
       for (const ir::Program& program : nc.lowered->programs)
-        if (std::any_of(program.body.begin(), program.body.end(),
-                        [](const ir::ProgramStatement& one) { return statedOffset(one).has_value(); }))
+        if (const auto others = codesOfOtherGroups(program);
+            std::any_of(program.body.begin(), program.body.end(), [&](const ir::ProgramStatement& one) {
+              return statedOffset(one, others).has_value();
+            }))
           out.insert(static_cast<std::uint32_t>(program.number));
   return out;
 }
@@ -60,10 +97,11 @@ std::set<std::uint32_t> switchingPrograms(const Project& project) {
 std::vector<std::optional<Offset>> offsetStates(const ir::Program& program, Offset entry,
                                                 const std::set<std::uint32_t>& switching) {
   const auto& body = program.body;
+  const auto others = codesOfOtherGroups(program);
   return ir::factsBefore<Offset>(
       body, entry,
       [&](std::size_t at, std::size_t, Offset offset) {
-        if (const auto stated = statedOffset(body[at])) return *stated;
+        if (const auto stated = statedOffset(body[at], others)) return *stated;
         const auto called = calledProgram(body[at]);
         return called && switching.contains(*called) ? Offset::Either : offset;
       },

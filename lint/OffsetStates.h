@@ -16,8 +16,13 @@ namespace dotek::lint {
 // that is called, may have changed it.
 enum class Offset : std::uint8_t { AsBefore, On, Off, Either };
 
-// G43, G44 and their forms with a point, G49; nothing: none of them. H0 is as good as G49.
-std::optional<Offset> statedOffset(const ir::ProgramStatement& statement);
+// Variables of the program that hold codes of other groups whatever happens: `#4=#4003`, `#4=90`.
+std::set<std::uint32_t> codesOfOtherGroups(const ir::Program& program);
+
+// G43, G44 and their forms with a point, G49; nothing: none of them. H0 is as good as G49. A computed code is
+// Either, but for one of `others`, of which #4003 and the like are always.
+std::optional<Offset> statedOffset(const ir::ProgramStatement& statement,
+                                   const std::set<std::uint32_t>& others);
 
 // The program that a G65 or M98 with a number that is written out calls; nothing: another statement.
 std::optional<std::uint32_t> calledProgram(const ir::ProgramStatement& statement);

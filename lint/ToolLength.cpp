@@ -71,7 +71,11 @@ private:
 
   void report(LengthLeftIn::Place place, SourceRange range, const ir::ExpressionPtr& value,
               const Fact& fact) {
-    const Held one = held(value, fact);
+    reportHeld(place, range, value->range, held(value, fact), fact);
+  }
+
+  void reportHeld(LengthLeftIn::Place place, SourceRange range, SourceRange value, const Held& one,
+                  const Fact& fact, bool assigned = false) {
     if (one.unknown || one.lengths == 0 || fact.offset == Offset::Off) return;
     if (one.lengths > 0 ? one.maybeTaken : one.maybeAdded) return;
     // The length taken off a coordinate that never held it.
@@ -79,7 +83,8 @@ private:
     if (!one.read && !(taken && absolute_)) return;
     const PositionRead& read = taken ? *one.length : *one.read;
     const std::uint32_t length = numbers_.length.empty() ? 0 : *numbers_.length.begin();
-    LengthLeftIn found{place, range, value->range, one.lengths, read.number, read.range, length};
+    LengthLeftIn found{place, range, value, one.lengths, read.number, read.range, length};
+    found.assigned = assigned;
     found.taken = taken;
     if (!taken) found.passed = read.passed;
     if (one.wear != nullptr) found.wear = {one.wear->wear.first - 1, one.wear->geometry};
@@ -184,7 +189,7 @@ private:
   }
 
   void judge(const ir::ProgramStatement& statement, Fact fact) {
-    if (const auto stated = statedOffset(statement)) fact.offset = *stated;
+    if (const auto stated = statedOffset(statement, otherCodes_)) fact.offset = *stated;
     ir::match(
         statement, [&](const ir::NcBlock& block) { judgeBlock(statement, block, fact); },
         [&](const ir::Call&) {
@@ -211,7 +216,10 @@ private:
   }
 
   void judgeBlock(const ir::ProgramStatement& statement, const ir::NcBlock& block, const Fact& fact) {
-    const bool offset = hasCode(block, 'G', 10) && isZeroInput(block) && maySetZero(fact);
+    if (hasCode(block, 'G', 10)) judgeToolInput(block, fact);
+    // G52: a zero within the zero of the work system.
+    const bool offset =
+        ((hasCode(block, 'G', 10) && isZeroInput(block)) || hasCode(block, 'G', 52)) && maySetZero(fact);
     if (!offset && !isPlainMove(block) && (skipOf(statement) == nullptr || hasCode(block, 'G', 53))) return;
     const bool cycle = !incremental_ && isCannedCycle(block);
     for (const ir::Word& word : block.words)
@@ -227,7 +235,67 @@ private:
     const bool zero =
         first && (number ? numbers_.zeroes.contains(*first)
                          : numbers_.zeroes.contains(*first) || numbers_.zeroes.contains(*first + 20));
-    if (zero) report(LengthLeftIn::Place::WorkOffset, statement.origin.range(), store.value, fact);
+    if (zero)
+      reportHeld(LengthLeftIn::Place::WorkOffset, statement.origin.range(), store.value->range,
+                 held(store.value, fact), fact, true);
+    if (!isToolOffset(number, store.number)) return;
+    const bool wear = project_.control != nullptr && isWear(number, store.number);
+    const Correction one =
+        correction(store.value, fact, [&](const ir::Expression&, const ir::ExpressionPtr& entry) {
+          return ir::equal(entry, store.number);
+        });
+    if (one.added || (wear && measuredUnderLength(fact)))
+      reportHeld(LengthLeftIn::Place::ToolOffset, statement.origin.range(), store.value->range, one.held,
+                 fact, true);
+  }
+
+  // G10 L10 and L11: the length of a tool and its wear.
+  void judgeToolInput(const ir::NcBlock& block, const Fact& fact) {
+    const auto l = wordValue(block, 'L');
+    if ((l != 10.0 && l != 11.0) || !maySetZero(fact)) return;
+    const bool wear = l == 11.0;
+    for (const ir::Word& word : block.words) {
+      if (word.address != 'R' || word.value == nullptr) continue;
+      const Correction one =
+          correction(word.value, fact, [&](const ir::Expression& variable, const ir::ExpressionPtr& entry) {
+            return isToolOffset(variableNumber(variable), entry) &&
+                   isWear(variableNumber(variable), entry) == wear;
+          });
+      if (one.added || incremental_ || (wear && !numbers_.wears.empty() && measuredUnderLength(fact)))
+        reportHeld(LengthLeftIn::Place::ToolOffset, word.range, word.value->range, one.held, fact);
+    }
+  }
+
+  // A new value is the length of a tool that is measured, and of a wear only where none is in force.
+  bool measuredUnderLength(const Fact& fact) const {
+    return readsLength() || (project_.control != nullptr && fact.offset == Offset::On);
+  }
+
+  bool isWear(const std::optional<std::uint32_t>& number, const ir::ExpressionPtr& computed) const {
+    const auto first = number ? number : writes_.firstNumber(computed);
+    return first && numbers_.wearOf(number ? *number : *first + 1) != nullptr;
+  }
+
+  // A sum, and whether the old entry of the table is a term; `held` is what the rest holds.
+  struct Correction {
+    Held held;
+    bool added = false;
+  };
+  Correction correction(const ir::ExpressionPtr& value, const Fact& fact, const auto& isEntry,
+                        bool plus = true) const {
+    if (const auto* unary = std::get_if<ir::Unary>(&value->node);
+        unary != nullptr && unary->op == ir::UnaryOp::NullAsZero)
+      return correction(unary->operand, fact, isEntry, plus);
+    if (const auto* binary = std::get_if<ir::Binary>(&value->node);
+        binary != nullptr && (binary->op == ir::BinaryOp::Add || binary->op == ir::BinaryOp::Subtract)) {
+      const bool subtract = binary->op == ir::BinaryOp::Subtract;
+      const Correction left = correction(binary->left, fact, isEntry, plus);
+      const Correction right = correction(binary->right, fact, isEntry, plus != subtract);
+      return {sum(left.held, right.held, subtract), left.added || right.added};
+    }
+    const auto* variable = std::get_if<ir::MachineVariable>(&value->node);
+    if (plus && variable != nullptr && isEntry(*value, variable->number)) return {{}, true};
+    return {held(value, fact), false};
   }
 
   // Arguments along Z that a probing macro takes as coordinates of the work system.

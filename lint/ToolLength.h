@@ -18,7 +18,8 @@ namespace dotek::lint {
 // against one.
 struct LengthLeftIn {
   // Difference: the position beside a height that the program moves to, subtracted or compared.
-  enum class Place : std::uint8_t { Move, Argument, WorkOffset, Difference };
+  // ToolOffset: a correction that is added to an offset of a tool, or the whole of its wear.
+  enum class Place : std::uint8_t { Move, Argument, WorkOffset, ToolOffset, Difference };
   Place place = Place::Move;
   SourceRange range;  // of the word, of the statement that writes the offset, of the difference
   SourceRange value;  // of the coordinate, of a Difference the position's side; no place: not to be had
@@ -32,6 +33,7 @@ struct LengthLeftIn {
     std::uint32_t wear = 2000, geometry = 2200;
   };
   std::optional<Wear> wear = std::nullopt;
+  bool assigned = false;   // the value is all of what the statement sets: it needs no brackets
   bool taken = false;      // the length is taken off a coordinate that does not hold it; `read` is the length
   SourceRange passed = {}; // the call that passes the position, which its caller reads; no place: none
   SourceRange call = {};   // by which the program is called under G43; no place: nothing says so

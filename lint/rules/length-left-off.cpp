@@ -1,8 +1,11 @@
+#include "ir/Walk.h"
 #include "lint/Skips.h"
 #include "lint/ToolLength.h"
 
 #include <algorithm>
 #include <map>
+#include <set>
+#include <vector>
 
 namespace dotek::lint::rule {
 namespace {
@@ -14,19 +17,44 @@ struct LeftOff {
   bool probes = false, changesTool = false;
 };
 
+// Branches that ask whether the caller has a length in force: what follows goes by the answer.
+std::vector<bool> asksForLength(const ir::Program& program) {
+  constexpr std::uint32_t kOfLengths = 4008; // #4008: G43, G44 or G49
+  std::set<std::uint32_t> copies{kOfLengths};
+  for (const ir::ProgramStatement& one : program.body)
+    if (const auto* store = std::get_if<ir::Store>(&one.node))
+      if (const auto number = storedNumber(one); number && variableNumber(*store->value) == kOfLengths)
+        copies.insert(*number);
+  std::vector<bool> out;
+  for (const ir::ProgramStatement& one : program.body) {
+    bool asks = false;
+    if (const auto* branch = std::get_if<ir::Branch>(&one.node); branch != nullptr && branch->condition)
+      ir::eachNode(branch->condition, [&](const ir::Expression& node) {
+        const auto number =
+            std::holds_alternative<ir::MachineVariable>(node.node) ? variableNumber(node) : std::nullopt;
+        asks = asks || (number && copies.contains(*number));
+      });
+    out.push_back(asks);
+  }
+  return out;
+}
+
 std::optional<LeftOff> leftOff(const ir::Program& program) {
   LeftOff out;
+  const auto others = codesOfOtherGroups(program);
   for (const ir::ProgramStatement& one : program.body) {
-    if (statedOffset(one) == Offset::Off) out.code = &one;
+    if (statedOffset(one, others) == Offset::Off) out.code = &one;
     out.probes = out.probes || skipOf(one) != nullptr;
     const auto* block = std::get_if<ir::NcBlock>(&one.node);
     out.changesTool = out.changesTool || (block != nullptr && hasCode(*block, 'M', 6));
   }
   if (out.code == nullptr) return std::nullopt;
+  const std::vector<bool> asks = asksForLength(program);
   const auto states = ir::factsBefore<Offset>(
       program.body, Offset::AsBefore,
       [&](std::size_t at, std::size_t, Offset offset) {
-        return statedOffset(program.body[at]).value_or(offset);
+        if (asks[at]) return Offset::Either;
+        return statedOffset(program.body[at], others).value_or(offset);
       },
       [](Offset& into, Offset other) {
         // One path under G49 is enough: the caller goes on in it.
@@ -64,11 +92,12 @@ void checkCaller(const ir::Program& program, const Programs& programs, Report& r
   for (std::size_t i = 0; i < body.size(); ++i)
     calls = calls || left(i) != programs.end();
   if (!calls) return;
+  const auto others = codesOfOtherGroups(program);
   // 0: under no G43; 1: under it; else 2 more than the place of the call that has taken it off.
   const auto states = ir::factsBefore<std::size_t>(
       body, std::size_t{0},
       [&](std::size_t at, std::size_t, std::size_t state) -> std::size_t {
-        if (const auto stated = statedOffset(body[at])) return *stated == Offset::On ? 1 : 0;
+        if (const auto stated = statedOffset(body[at], others)) return *stated == Offset::On ? 1 : 0;
         if (state == 1 && left(at) != programs.end()) return at + 2;
         return state > 1 && movesZ(body[at]) ? 0 : state;
       },
@@ -78,7 +107,7 @@ void checkCaller(const ir::Program& program, const Programs& programs, Report& r
         return true;
       });
   for (std::size_t i = 0; i < body.size(); ++i) {
-    if (!states[i] || *states[i] < 2 || !movesZ(body[i]) || statedOffset(body[i])) continue;
+    if (!states[i] || *states[i] < 2 || !movesZ(body[i]) || statedOffset(body[i], others)) continue;
     const std::size_t call = *states[i] - 2;
     const auto of = left(call);
     report

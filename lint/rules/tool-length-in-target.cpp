@@ -20,7 +20,26 @@ std::optional<Edit> repair(const LengthLeftIn& one, const SourceMap& sources) {
   const bool bracketed = text.starts_with('[') && text.ends_with(']') && text.find(']') == text.size() - 1;
   if (bracketed) text = text.substr(1, text.size() - 2);
   const std::string taken = fmt::format("{}{}#{}", text, one.lengths > 0 ? '-' : '+', one.length);
-  return Edit{one.value, one.place == Place::WorkOffset ? taken : "[" + taken + "]"};
+  return Edit{one.value, one.assigned ? taken : "[" + taken + "]"};
+}
+
+// What the text that is underlined becomes by the edit.
+std::string becomes(SourceRange range, const Edit& edit, const SourceMap& sources) {
+  const SourceRange at = edit.range;
+  if (at.file != range.file || at.begin < range.begin || at.end > range.end) return edit.text;
+  return fmt::format("{}{}{}", sources.text({range.file, range.begin, at.begin}), edit.text,
+                     sources.text({range.file, at.end, range.end}));
+}
+
+std::string_view subjectOf(Place place) {
+  switch (place) {
+  case Place::WorkOffset: return "this work offset is";
+  case Place::ToolOffset: return "this offset of a tool is";
+  case Place::Move:
+  case Place::Argument:
+  case Place::Difference: return "this Z is";
+  }
+  return "this Z is";
 }
 
 std::string wearText(const LengthLeftIn::Wear& wear) {
@@ -85,7 +104,7 @@ void checkProgram(const ir::Program& program, const Project& project, const Tool
                         "{0} computed from #{1}, which holds the length of the tool too, and {5}; "
                         "under G43 {2} "
                         "{3} by that length; {4}",
-                        first.place == Place::WorkOffset ? "this work offset is" : "this Z is", first.read,
+                        subjectOf(first.place), first.read,
                         first.place == Place::WorkOffset ? "the zero lies" : "the tool goes",
                         first.lengths > 0 ? "too high" : "too low, into the part,",
                         first.wear ? wearCure(first) : fmt::format("take #{} off", first.length),
@@ -108,7 +127,7 @@ void checkProgram(const ir::Program& program, const Project& project, const Tool
       if (auto edit = repair(one, project.sources)) fix.edits.push_back(std::move(*edit));
     }
     if (!fix.edits.empty()) {
-      fix.title = fmt::format("write `{}`", fix.edits.front().text);
+      fix.title = fmt::format("write `{}`", becomes(first.range, fix.edits.front(), project.sources));
       found.fix = std::move(fix);
     }
   }
