@@ -449,6 +449,15 @@ bool has(std::string_view text, std::initializer_list<std::string_view> words) {
                      [&](std::string_view word) { return text.find(word) != std::string_view::npos; });
 }
 
+// The L of a G10 that sets the length of a tool, 10, or its wear, 11; nullptr: another block.
+const nc::Word* lengthInput(const Block& block) {
+  const auto* words = std::get_if<Words>(&block.body);
+  if (words == nullptr || findCode(*words, 'G', 10) == nullptr) return nullptr;
+  const nc::Word* kind = findWord(*words, 'L');
+  const auto l = kind != nullptr ? literal(*kind) : std::nullopt;
+  return l == 10.0 || l == 11.0 ? kind : nullptr;
+}
+
 // What the numbers of variables are made of, as sums: a constant and whatever else is added.
 class Addresses {
 public:
@@ -513,6 +522,15 @@ void wearInGeometry(const CheckedProgram& input, Report& report) {
   const int wear = control != nullptr ? *control->variables.toolWear : 2000;
   const int count = control != nullptr ? control->variables.toolCount : 200;
   const auto in = [&](double number, int first) { return number > first && number <= first + count; };
+  // Long programs of some controls have the same offsets by other numbers, too.
+  const auto isWear = [&](double number) {
+    return in(number, wear) || (control != nullptr && control->variables.toolWearToo &&
+                                in(number, *control->variables.toolWearToo));
+  };
+  const auto isGeometry = [&](double number) {
+    return in(number, geometry) || (control != nullptr && control->variables.toolGeometryToo &&
+                                    in(number, *control->variables.toolGeometryToo));
+  };
   std::string all;
   for (const Comment& comment : input.program.comments)
     all += upper(comment.text) + "\n";
@@ -522,17 +540,22 @@ void wearInGeometry(const CheckedProgram& input, Report& report) {
   if (!has(all, {"WEAR", "VERSCHLEI", "OPOT"})) return;
   const bool both = has(all, {"GEOM", "GEO ", "DELK"});
   const Addresses addresses(input.program.blocks);
-  std::vector<const nc::Assignment*> writes;
+  std::vector<std::pair<SourceRange, const nc::Word*>> writes; // with the L of a G10
+  bool second = false;                                         // the first of them is by the second number
   bool writesWear = false;
   const std::vector<Comment>* before = nullptr;
   for (const Block& block : input.program.blocks) {
     const nc::Assignment* assignment = Addresses::assignmentOf(block);
     const std::vector<Comment>* above = std::exchange(before, nullptr);
     if (std::holds_alternative<std::monostate>(block.body)) before = &block.comments;
-    if (assignment == nullptr) continue;
-    const auto from = addresses.writtenFrom(*assignment);
-    if (from && in(*from, wear) && !in(*from, geometry)) writesWear = true;
-    if (!from || !in(*from, geometry)) continue;
+    const nc::Word* kind = lengthInput(block);
+    if (assignment == nullptr && kind == nullptr) continue;
+    const auto from = assignment != nullptr ? addresses.writtenFrom(*assignment) : std::nullopt;
+    const bool toGeometry = kind != nullptr ? literal(*kind) == 10.0 : from && isGeometry(*from);
+    if (!toGeometry) {
+      writesWear = writesWear || kind != nullptr || (from && isWear(*from));
+      continue;
+    }
     std::string near;
     for (const Comment& comment : block.comments)
       near += upper(comment.text) + "\n";
@@ -540,19 +563,31 @@ void wearInGeometry(const CheckedProgram& input, Report& report) {
       near += upper(comment.text) + "\n";
     const bool saysWear = has(near, {"WEAR", "VERSCHLEI", "OPOT"}) && !has(near, {"GEOM"});
     // A program that speaks of wear alone, and writes the geometry alone.
-    if (saysWear || (!both && near.empty())) writes.push_back(assignment);
+    if (saysWear || (!both && kind == nullptr && near.empty())) {
+      if (writes.empty()) second = from && !in(*from, geometry);
+      writes.emplace_back(kind != nullptr ? kind->range : assignment->range, kind);
+    }
     if (saysWear) writesWear = false;
   }
   if (writes.empty() || writesWear) return;
+  if (writes.front().second != nullptr) {
+    report.at(writes.front().first,
+              "the program says wear, and L10 of G10 writes the geometry of the tool's length, which is "
+              "overwritten; the wear is L11");
+    return;
+  }
   if (control != nullptr) {
-    report.at(writes.front()->range,
+    const bool other = second && control->variables.toolWearToo;
+    const int named = other ? *control->variables.toolGeometryToo : geometry;
+    const int right = other ? *control->variables.toolWearToo : wear;
+    report.at(writes.front().first,
               "the program says wear, and this writes the geometry: on the {}, #{}.. is the geometry of tool "
               "lengths and #{}.. the wear; the length of the tool is overwritten; write `#[{}+..]`",
-              control->title, geometry + 1, wear + 1, wear);
+              control->title, named + 1, right + 1, right);
     return;
   }
   report.at(
-      writes.front()->range,
+      writes.front().first,
       "the program says wear, and this writes the geometry: #{}.. is the geometry of tool lengths on a Fanuc "
       "control, #{}.. the wear; the length of the tool is overwritten; write `#[{}+..]` (Haas counts the "
       "other "
