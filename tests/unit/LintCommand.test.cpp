@@ -338,6 +338,24 @@ TEST_CASE("lint: where a profile infers that a position holds the length, no rep
   CHECK(inferred.find("fix by hand") == std::string::npos);
 }
 
+TEST_CASE("lint: the length that is to be taken off is shown in the text that is underlined") {
+  const DataFolder folder;
+  const auto proposed = [&](const std::string& block) {
+    folder.write("o.nc", "O9101\nG90 G31 Z[#26-4.] F100\nG53\n#1=#5063\n" + block + "\nM99\n");
+    const std::string out =
+        runDotek({"lint", "o.nc", "--select", "tool-length-in-target"}, folder.path()).out;
+    const std::string before = "write `";
+    const std::size_t at = out.find(before, out.find("fix by hand"));
+    return at == std::string::npos
+               ? out
+               : out.substr(at + before.size(), out.find('`', at + before.size()) - at - before.size());
+  };
+  CHECK(proposed("#140=#1-#26") == "[#1-#5083]-#26");
+  CHECK(proposed("G0 Z[#1+5.]") == "Z[#1+5.-#5083]");
+  CHECK(proposed("G10 L2 P1 Z#1") == "Z[#1-#5083]");
+  CHECK(proposed("#2005=#2005-#1") == "#2005=#2005-#1+#5083");
+}
+
 TEST_CASE("lint: what convert refuses of a macro for certain is a warning, and once") {
   const DataFolder folder;
   fs::create_directories(folder.path() + "/probe-z");
