@@ -54,7 +54,7 @@ std::optional<lint::Baseline> keptBaseline(const std::string& path, project::Ses
   if (!text) return std::nullopt;
   std::string reason;
   if (auto out = lint::Baseline::read(*text, reason, path)) return out;
-  said = fmt::format("`{}` was no baseline ({}) and is replaced", path, reason);
+  said = fmt::format("`{}` was no baseline ({}); nothing of it is kept", path, reason);
   return lint::Baseline();
 }
 

@@ -10,6 +10,7 @@
 #include "support/NearestName.h"
 #include "support/messages/Commands.h"
 #include "support/messages/Posts.h"
+#include "support/messages/Verify.h"
 
 #include <charconv>
 #include <filesystem>
@@ -298,8 +299,8 @@ void PostRunner::report(const PostResult& result) {
         where, fmt::format("it wrote more than {} bytes; `--limit script-output=N` raises the limit",
                            options_.output));
     break;
-  case PostFault::Kind::Stopped:
-  case PostFault::Kind::NoWorker: out = &diagnostics.report<diag::PostStopped>(where, text); break;
+  case PostFault::Kind::Stopped: out = &diagnostics.report<diag::PostStopped>(where, text); break;
+  case PostFault::Kind::NoWorker: out = &diagnostics.report<diag::ScriptNotRun>({}, text); break;
   }
   for (std::size_t i = 1; i < fault.stack.size() && i < 4; ++i)
     out->note(lineRange(fault.stack[i].line), fmt::format("called from {}", fault.stack[i].function));

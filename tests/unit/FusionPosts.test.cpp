@@ -1,8 +1,11 @@
 // Posts of Fusion that run: the kernel against a second one, and what stops a post.
+#include "driver/RunPost.h"
+#include "support/messages/Verify.h"
 #include "tests/GoldenRunner.h"
 #include "tests/Process.h"
 #include "tests/Skips.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <doctest/doctest.h>
@@ -10,6 +13,7 @@
 #include <string>
 
 namespace fs = std::filesystem;
+using namespace dotek;
 using namespace dotek::tests;
 
 namespace {
@@ -45,6 +49,18 @@ TEST_CASE("fusion posts: a second kernel, written from the reference, prints the
     CHECK_MESSAGE(ours.status == 0, ours.err);
     CHECK(ours.out == *wanted);
   }
+}
+
+TEST_CASE("fusion posts: where no script can be run the post is not at fault") {
+  driver::RunPostOptions options;
+  options.post = (root() / "tests/fusion/posts/old.cps").string();
+  options.matrix = "probing";
+  options.common.scriptProgram = "/nowhere";
+  const driver::Outcome outcome = driver::runPost(options);
+  CHECK(outcome.status == 2);
+  const auto& all = outcome.diagnostics.all();
+  CHECK(std::any_of(all.begin(), all.end(),
+                    [](const Diagnostic& one) { return one.code == diag::ScriptNotRun::code; }));
 }
 
 TEST_CASE("fusion posts: an include that includes itself is named, and one that ends is run") {
