@@ -271,8 +271,10 @@ std::optional<fs::path> cycleFile(const fs::path& folder, std::string_view name)
 bool isCycleFolder(const fs::path& path) {
   std::error_code error;
   if (!fs::is_directory(path, error)) return false;
-  return std::any_of(kFiles.begin(), kFiles.end(),
-                     [&](std::string_view name) { return findEntry(path, name).has_value(); });
+  return std::any_of(kFiles.begin(), kFiles.end(), [&](std::string_view name) {
+    const auto file = findEntry(path, name);
+    return file && !isStream(file->generic_string()); // a pipe in a folder is not read
+  });
 }
 
 namespace {

@@ -15,6 +15,15 @@ constexpr const char* kProgram = "%\nO1\nG90 G0 X1.\nM30\n%\n";
 
 } // namespace
 
+TEST_CASE("pipes: one with the name of a cycle's file makes a folder of programs no cycle") {
+  const ProcessFolder folder;
+  folder.write("mill/a.nc", "%\nO1\nM30\n%\n");
+  folder.run("mkfifo mill/CycleData.mac");
+  const ShellResult result = folder.run("dotek lint mill");
+  CHECK(result.status == 0);
+  CHECK_MESSAGE(result.err == "1 file checked, 1 skipped (CycleData.mac: no regular file)\n", result.err);
+}
+
 TEST_CASE("a pipe in a folder of cycles or of data files is no file") {
   const ProcessFolder folder;
   folder.write("good/spare.cycle", "cycle spare \"Spare\"\nspindle off\n");
