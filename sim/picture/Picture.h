@@ -117,6 +117,7 @@ struct Picture {
   std::optional<ToolSetter> setter; // of the machine
   std::vector<PictureTool> tools;   // that were in the spindle, the probe aside
   std::vector<PictureMove> moves;   // in the order of the run
+  bool still = false; // the run made no move: the only one is of no length, at the place where it stood
   std::vector<PictureContact> contacts;
   std::vector<PictureError> errors;
   std::vector<PictureBlock> blocks;
@@ -154,12 +155,17 @@ std::vector<std::string> errorNames(const Picture& picture);
 // The place in Picture::blocks at which an error happened; nothing: it is not known.
 std::optional<std::size_t> blockOf(const Picture& picture, const PictureError& error);
 
+// That the run made.
+inline std::size_t moveCount(const Picture& picture) {
+  return picture.still ? 0 : picture.moves.size();
+}
+
 // An SVG that opens with how the run went. Three views, XY, XZ and YZ: sections of the part, the path,
 // numbered contacts, errors in red, a legend and a scale. The same picture gives the same bytes.
 std::string pictureSvg(const Picture& picture);
-// One page that needs no network, and opens with how the run went, at its end: a 3D view that turns with the
-// mouse, the blocks beside it, a slider that steps through the moves and shows the probe's position in work
-// and machine coordinates.
+// One page that needs no network, and opens with how the run went, at its failure or else its end: a 3D view
+// that turns with the mouse, the blocks beside it, a slider that steps through the moves and shows the
+// probe's position in work and machine coordinates.
 std::string pictureHtml(const Picture& picture);
 
 } // namespace dotek::sim

@@ -149,8 +149,8 @@ private:
     const auto size = [](double value) {
       return std::isfinite(value) && value > 0 && value < kDrawn ? value : 0;
     };
-    std::string out = fmt::format("{{\"count\":{},\"decimals\":{},\n\"kinds\":[", picture_.moves.size(),
-                                  std::clamp(picture_.decimals, 0, 6));
+    std::string out = fmt::format("{{\"count\":{},\"still\":{},\"decimals\":{},\n\"kinds\":[",
+                                  moveCount(picture_), picture_.still, std::clamp(picture_.decimals, 0, 6));
     for (int i = 0; i < 4; ++i) {
       const auto kind = static_cast<PathKind>(i);
       const PathStyle& style = pathStyle(kind);

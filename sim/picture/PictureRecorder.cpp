@@ -189,6 +189,19 @@ void PictureRecorder::moved(const MachineMotion& motion) {
   addEvents(before, picture_.moves.empty() ? 0 : picture_.moves.size() - 1);
 }
 
+void PictureRecorder::standStill(const PictureBlock& block) {
+  const double nan = std::nan("");
+  const Point3 at = here_ ? here_() : Point3{nan, nan, nan};
+  if (std::isnan(at.x) && std::isnan(at.y) && std::isnan(at.z)) return;
+  picture_.still = true;
+  PictureMove move{PathKind::Feed, at, at, on_, placeOf(block), frameNow(), toolNow()};
+  forgetLost(move);
+  move.from = move.to;
+  picture_.moves.push_back(move);
+  for (PictureError& error : picture_.errors)
+    if (std::isnan(error.at.x) && std::isnan(error.at.y) && std::isnan(error.at.z)) error.at = move.to;
+}
+
 void PictureRecorder::finish(const RunFacts& facts, std::vector<PictureMeasured> measured) {
   // What has become unknown since the last move: the place at the end is not that of the move.
   if (frame_ && !picture_.moves.empty() && !full_) {
@@ -200,9 +213,10 @@ void PictureRecorder::finish(const RunFacts& facts, std::vector<PictureMeasured>
     };
     if (last < picture_.frames.size() && lost(now) > lost(last)) picture_.moves.back().frame = now;
   }
+  const std::string why = endingText(facts);
+  if (picture_.moves.empty() && (!why.empty() || !picture_.errors.empty())) standStill(facts.block);
   picture_.measured = std::move(measured);
   picture_.result = resultOf(picture_, facts);
-  const std::string why = endingText(facts);
   if (why.empty() || isSaidByTravel(facts)) return;
   const std::size_t move = picture_.moves.empty() ? 0 : picture_.moves.size() - 1;
   // Without a move the place is not known; no number is not drawn.

@@ -38,7 +38,9 @@ public:
   // comes, and the moves are those of the spindle's gauge line.
   PictureRecorder(Picture empty, World* world, CallKind callKind, BlockNow blockNow);
 
-  void setFrame(FrameNow frame) { frame_ = std::move(frame); }              // without it they are not known
+  void setFrame(FrameNow frame) { frame_ = std::move(frame); } // without it they are not known
+  // Where the ball is now; no number: not known.
+  void setPlace(std::function<Point3()> here) { here_ = std::move(here); }
   void setSafeMove(std::function<bool()> safe) { safe_ = std::move(safe); } // the skip move that runs is one
   // The program takes the end of the last miss for the surface; `text` says so.
   void missUsed(const std::string& text);
@@ -63,6 +65,7 @@ public:
   const Picture& picture() const { return picture_; }
 
 private:
+  void standStill(const PictureBlock& block); // of a run that makes no move: where it is
   void endAtTravel(std::size_t from); // the last move, by the events of the world from the `from`-th on
   void addEvents(std::size_t from, std::size_t move, bool isProtected = false);
   std::size_t placeOf(PictureBlock block); // in Picture::blocks
@@ -76,6 +79,7 @@ private:
   CallKind callKind_;
   BlockNow block_;
   FrameNow frame_;
+  std::function<Point3()> here_;
   std::function<bool()> safe_;
   std::map<std::string, std::size_t> places_;  // of blocks
   std::vector<std::optional<PathKind>> calls_; // that are open

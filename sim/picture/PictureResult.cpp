@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <iterator>
 
 namespace dotek::sim {
 namespace {
@@ -93,6 +94,11 @@ std::string positionAt(const Picture& picture, const Point3& centre, std::size_t
                      pointText(*work, picture.decimals), machine);
 }
 
+std::vector<PictureError>::const_iterator lastMiss(const std::vector<PictureError>& errors) {
+  const auto last = std::find_if(errors.rbegin(), errors.rend(), isMiss);
+  return last == errors.rend() ? errors.end() : std::prev(last.base());
+}
+
 } // namespace
 
 std::string pointText(const Point3& p, int decimals) {
@@ -162,11 +168,17 @@ PictureResult resultOf(const Picture& picture, const RunFacts& facts) {
   if (ended && !crashed && !measuredNothing && !picture.part && picture.contacts.empty() && !atSetter)
     out.text += "; no part was given, so nothing could be touched";
 
+  if (out.verdict == Verdict::Pass && facts.warnings > 0)
+    out.text += fmt::format("; {}, listed below", plural(facts.warnings, "warning", "warnings"));
+
   const bool faulty = !crashed && !measuredNothing && fault != nullptr;
-  const auto shown = faulty ? std::find_if(picture.errors.begin(), picture.errors.end(),
-                                           [&](const PictureError& e) { return e.fault; })
-                            : named;
-  if ((crashed || measuredNothing || faulty) && shown != picture.errors.end()) {
+  // Nothing worse has happened than its last miss.
+  const bool missed = !crashed && !measuredNothing && !faulty && ended && misses > 0;
+  const auto shown = faulty   ? std::find_if(picture.errors.begin(), picture.errors.end(),
+                                             [&](const PictureError& e) { return e.fault; })
+                     : missed ? lastMiss(picture.errors)
+                              : named;
+  if ((crashed || measuredNothing || faulty || missed) && shown != picture.errors.end()) {
     const PictureError& error = *shown;
     out.error = static_cast<std::size_t>(shown - picture.errors.begin());
     if (const std::optional<std::size_t> block = blockOf(picture, error)) {
@@ -187,7 +199,8 @@ PictureResult resultOf(const Picture& picture, const RunFacts& facts) {
   if (faults > 0) out.counts.push_back(plural(faults, "probe fault", "probe faults"));
   if (picture.part || misses > 0) out.counts.push_back(plural(misses, "miss", "misses"));
   out.counts.push_back(plural(picture.contacts.size(), "contact", "contacts"));
-  out.counts.push_back(plural(picture.moves.size(), "move", "moves"));
+  out.counts.push_back(plural(moveCount(picture), "move", "moves"));
+  if (facts.warnings > 0) out.counts.push_back(plural(facts.warnings, "warning", "warnings"));
   return out;
 }
 

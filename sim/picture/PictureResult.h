@@ -28,6 +28,7 @@ struct RunFacts {
   std::string_view subject = "program";   // what ran
   std::uint64_t usedMisses = 0;           // misses whose end was taken for the surface
   std::vector<RunFault> faults = {};      // in the order of the run
+  std::size_t warnings = 0;               // that the run has reported
 };
 
 // The banner of a picture whose moves, errors and frames are complete. A collision comes before the alarm

@@ -10,7 +10,7 @@ function makeView(canvas, data) {
   const show = { part: true, probe: true };
   const part = readMesh(data.mesh);
   let width = 1, height = 1, dots = 1; // of the canvas in px, its dots per px
-  let image = null, partIsDrawn = false;
+  let image = null, partIsDrawn = false, isFitted = false;
   let partColours, partDepths;           // of the part alone; kept until the camera moves
   let frameColours, frameDepths;         // with the probe
   let colours, depths;                   // the two that are being filled
@@ -399,10 +399,15 @@ function makeView(canvas, data) {
     paint.fillText(Number(length.toPrecision(3)) + " mm", 118 + px, height - 15);
   }
 
+  // The error that the page is about, while its move is shown; undefined: another move.
+  function failureAt(current) {
+    const failed = data.fails === null ? undefined : data.errors[data.fails];
+    return failed !== undefined && failed.move === current && failed.drawn ? failed : undefined;
+  }
   // Where the probe stands: at the end of the move, and where the run failed at the place of that.
   function placeAt(current) {
-    const failed = data.fails === null ? undefined : data.errors[data.fails];
-    return failed !== undefined && failed.move === current && failed.drawn ? failed.at : data.moves[current] && data.moves[current].to;
+    const failed = failureAt(current);
+    return failed !== undefined ? failed.at : data.moves[current] && data.moves[current].to;
   }
 
   function draw(current) {
@@ -463,9 +468,10 @@ function makeView(canvas, data) {
     partDepths = new Float32Array(w * h);
     frameColours = new Uint32Array(image.data.buffer);
     frameDepths = new Float32Array(w * h);
+    if (isFitted) fit();
     partIsDrawn = false;
   }
-  // The whole region in the window.
+  // The whole region in the window; as long as nobody zooms or moves, in that of another size, too.
   function fit() {
     aim();
     camera.x = camera.y = 0;
@@ -476,10 +482,12 @@ function makeView(canvas, data) {
       x = Math.max(x, Math.abs(p[0] - width / 2)); y = Math.max(y, Math.abs(p[1] - height / 2));
     }
     camera.zoom = Math.max(1e-6, Math.min((width / 2 - 24) / x, (height / 2 - 40) / y));
+    isFitted = true;
     partIsDrawn = false;
   }
   function change(by) {
     Object.assign(camera, by);
+    isFitted = isFitted && by.zoom === undefined && by.x === undefined;
     camera.tilt = Math.max(-Math.PI / 2, Math.min(Math.PI / 2, camera.tilt));
     camera.zoom = Math.max(1e-6, Math.min(1e6, camera.zoom));
     partIsDrawn = false;
@@ -495,5 +503,5 @@ function makeView(canvas, data) {
     theme = readTheme();
     partIsDrawn = false;
   }
-  return { camera, show, draw, where, placeAt, turnTo, resize, fit, change, zoomAt, retheme, redoPart: () => { partIsDrawn = false; } };
+  return { camera, show, draw, where, placeAt, failureAt, turnTo, resize, fit, change, zoomAt, retheme, redoPart: () => { partIsDrawn = false; } };
 }

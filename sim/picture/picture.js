@@ -135,31 +135,33 @@ window.onerror = (message, source, line) => {
   }
 
   // ---- steps
+  const kindOf = (move) => data.still ? "none" : data.kinds[move.kind].name;
   function state() {
     const move = moves[current];
     if (!move) return { index: -1, count: 0 };
-    const gauge = gaugeOf(move.to, current), work = workOf(gauge, current);
-    return { index: current, count: moves.length, position: move.to, text: knownOf(move.to, current).map(number), machine: gauge.map(number),
-      work: work === null ? null : work.map(number), system: nameOf(current), kind: data.kinds[move.kind].name, probeOn: move.on, block: move.block,
-      place: (data.blocks[move.block] || ["", ""])[1], drawnAt: move.drawn ? view.where(view.placeAt(current)) : null };
+    const at = view.placeAt(current), gauge = gaugeOf(at, current), work = workOf(gauge, current);
+    return { index: current, count: data.still ? 0 : moves.length, position: at, text: knownOf(at, current).map(number), machine: gauge.map(number),
+      work: work === null ? null : work.map(number), system: nameOf(current), kind: kindOf(move), probeOn: move.on, block: move.block,
+      place: (data.blocks[move.block] || ["", ""])[1], drawnAt: move.drawn ? view.where(at) : null };
   }
   function go(index) {
     if (moves.length === 0) return;
     current = Math.max(0, Math.min(moves.length - 1, Math.round(Number(index)) || 0));
     const move = moves[current];
     slider.value = current;
-    const gauge = gaugeOf(move.to, current), work = workOf(gauge, current);
+    const at = view.placeAt(current), gauge = gaugeOf(at, current), work = workOf(gauge, current), failed = view.failureAt(current);
+    byId("position-name").textContent = "Position" + (data.still ? " at the start" : failed === undefined ? "" : " at " + failed.letter + failed.number);
     ["x", "y", "z"].forEach((name, i) => {
-      byId(name).textContent = number(knownOf(move.to, current)[i]);
+      byId(name).textContent = number(knownOf(at, current)[i]);
       byId("gauge-" + name).textContent = number(gauge[i]);
       byId("work-" + name).textContent = work === null ? "?" : number(work[i]);
     });
     byId("work-name").textContent = nameOf(current) === "work" ? "work" : "work " + nameOf(current);
     byId("what").textContent = move.tool === undefined ? "ball's centre" : move.tool.listed ? "end of tool " + move.tool.number :
       "tool " + move.tool.number + ", in no list: " + (move.tool.length > 0 ? "its end by the length in force, " + number(move.tool.length) : "the gauge line");
-    byId("kind").textContent = data.kinds[move.kind].name;
+    byId("kind").textContent = kindOf(move);
     byId("power").textContent = move.tool !== undefined ? "not in the spindle" : move.on ? "on" : "off";
-    byId("count").textContent = "move " + (move.number + 1) + " of " + data.count;
+    byId("count").textContent = data.still ? "no moves" : "move " + (move.number + 1) + " of " + data.count;
     const here = byId("here"), contact = contactOf.get(current), error = errorOf.get(current);
     here.textContent = "";
     if (contact !== undefined) {
@@ -174,6 +176,13 @@ window.onerror = (message, source, line) => {
       say(red, data.errors[error].letter + data.errors[error].number + ": " + data.errors[error].text);
       here.append(red);
     }
+    const end = gaugeOf(move.to, current), meant = workOf(end, current) || end;
+    if (failed !== undefined && point(meant) !== point(work || gauge)) {
+      const line = document.createElement("div");
+      line.id = "move-end";
+      say(line, "end of the move: " + (work === null ? "machine" : nameOf(current)) + " " + point(meant));
+      here.append(line);
+    }
     showBlock();
     redraw();
   }
@@ -183,6 +192,7 @@ window.onerror = (message, source, line) => {
   slider.addEventListener("input", () => go(slider.value));
   byId("back").addEventListener("click", () => go(current - 1));
   byId("next").addEventListener("click", () => go(current + 1));
+  byId("last").addEventListener("click", () => go(moves.length - 1));
   document.addEventListener("keydown", (event) => {
     const factor = { "+": 1.4, "-": 1 / 1.4 }[event.key];
     if (factor !== undefined && !event.ctrlKey && !event.metaKey) return zoom(factor);
@@ -200,7 +210,7 @@ window.onerror = (message, source, line) => {
     }, Math.max(60, Math.min(500, 20000 / moves.length))) : clearInterval(timer) || null;
     byId("play").textContent = timer === null ? "Play" : "Stop";
   });
-  for (const id of ["slider", "back", "next", "play"]) byId(id).disabled = moves.length === 0;
+  for (const id of ["slider", "back", "next", "last", "play"]) byId(id).disabled = moves.length === 0 || data.still;
   if (moves.length === 0) byId("count").textContent = "no moves";
 
   // ---- errors: those before misses
@@ -281,11 +291,8 @@ window.onerror = (message, source, line) => {
       redraw();
     });
   }
-  let isFitted = false;
   new ResizeObserver(() => {
     view.resize();
-    if (!isFitted) view.fit();
-    isFitted = true;
     layRows();
     view.draw(current); // before the page is painted, so that nothing flickers
   }).observe(canvas);

@@ -9,6 +9,20 @@
 
 namespace dotek::sim {
 
+void SimWorld::addWarnings() {
+  PictureList list{"warnings", "Warnings", {}};
+  for (const Diagnostic& one : session_.diagnostics().all()) {
+    if (one.severity != Severity::Warning) continue;
+    std::string place;
+    if (one.range.hasPlace()) {
+      const SourceFile& file = session_.sources().file(one.range.file);
+      place = fmt::format("{}:{}: ", file.name(), file.place(one.range.begin).line);
+    }
+    list.lines.push_back(fmt::format("{}{} [{}]", place, one.message, one.code));
+  }
+  addList(std::move(list));
+}
+
 void SimWorld::addInputs() {
   PictureList list{"inputs", "Inputs", {}};
   const auto add = [&](std::string_view name, const std::string& value) {

@@ -174,6 +174,11 @@ void SimWorld::begin() {
                 : [](std::uint32_t, std::span<const double>) { return std::optional<PathKind>(); },
       block_ ? block_ : [this] { return blockNow(); });
   recorder_->setFrame(frame_);
+  if (machineNow_ != nullptr && (setup_.at || machine_))
+    recorder_->setPlace([this] {
+      const Position gauge = machineNow_->machinePosition();
+      return world_ ? world_->centreAt(gauge) : Point3{gauge[0], gauge[1], gauge[2]};
+    });
   recorder_->setSafeMove(safe_);
 }
 
@@ -489,6 +494,7 @@ void SimWorld::finishPicture() {
   tellUnseen();
   log_.finish();
   if (!recorder_) return;
+  addWarnings();
   addInputs();
   RunFacts facts;
   facts.end = end_();
@@ -499,6 +505,9 @@ void SimWorld::finishPicture() {
   facts.events = outcomes_;
   facts.usedMisses = usedMisses_;
   facts.faults = faults_;
+  facts.warnings = static_cast<std::size_t>(
+      std::count_if(session_.diagnostics().all().begin(), session_.diagnostics().all().end(),
+                    [](const Diagnostic& one) { return one.severity == Severity::Warning; }));
   if (facts.end.ending == Ending::Running && session_.diagnostics().hasErrors())
     facts.unread = session_.diagnostics().all().back().message;
   recorder_->finish(facts, log_.entries());

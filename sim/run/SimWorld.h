@@ -196,8 +196,9 @@ private:
   // Before a skip move; the last one, where this goes on from there.
   std::optional<Missed> beginSearch(const SkipMove& move);
   void keepMiss(Kept miss, std::size_t index, bool meant);
-  void tellUnseen(); // at the end of the run
-  void addInputs();  // to the picture
+  void tellUnseen();  // at the end of the run
+  void addWarnings(); // to the picture
+  void addInputs();   // the same
   // The axis of a variable along which the last skip move went; nothing: it holds nothing of its end.
   std::optional<std::size_t> axisOfMiss(std::uint32_t variable) const;
   void missEnded(const MachineMotion& motion);

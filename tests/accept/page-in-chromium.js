@@ -9,7 +9,9 @@
   const expect = (holds, what) => { if (!holds) faults.push(what); };
   const painted = () => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
   const numbers = () => ["x", "y", "z"].map((id) => byId(id).textContent);
-  const wanted = (i) => data.way.slice(i * 6 + 3, i * 6 + 6);
+  // At the end of the move, of the one that failed at the place of that.
+  const failed = data.fails === null || data.errors[data.fails].slice(0, 3).includes(null) ? null : data.errors[data.fails];
+  const wanted = (i) => failed !== null && failed[3] === i ? failed.slice(0, 3) : data.way.slice(i * 6 + 3, i * 6 + 6);
   // With the decimals of the control, and as near as they allow.
   const isNumber = (text, value) => new RegExp("^-?[0-9]+" + (data.decimals > 0 ? "[.][0-9]{" + data.decimals + "}" : "") + "$").test(text) &&
     Math.abs(Number(text) - value) <= 0.5 * 10 ** -data.decimals + 1e-9 && !/^-0[.]?0*$/.test(text);
@@ -32,6 +34,7 @@
     }
     expect(byId("kind").textContent === data.kinds[data.way[i * 6]].name, how + ": kind of move " + i);
     expect(byId("power").textContent === (data.way[i * 6 + 1] ? "on" : "off"), how + ": probe at move " + i);
+    expect((byId("position-name").textContent === "Position") === (failed === null || failed[3] !== i), how + ": " + byId("position-name").textContent);
     const row = document.querySelector("#blocks .current");
     expect(row !== null && Number(row.dataset.block) === data.way[i * 6 + 2], how + ": block of move " + i);
   };
@@ -117,6 +120,8 @@
     check(2, "key right");
     document.dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowLeft" }));
     check(1, "key left");
+    byId("last").click();
+    check(count - 1, "button End");
     window.dotek.go(0);
     const last = data.way[count * 6 - 4], row = document.querySelector('#blocks .row[data-block="' + last + '"]');
     if (row !== null) { // in sight

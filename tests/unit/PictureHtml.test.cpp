@@ -177,6 +177,9 @@ TEST_CASE("html: in Chromium the slider moves the probe and the numbers are thos
   RunFacts facts;
   facts.end.ending = Ending::Alarm;
   facts.end.number = 3004;
+  // The probe hit the part before the end of its move, and stands there.
+  picture.errors[0].at.x += 4;
+  facts.events[static_cast<std::size_t>(Outcome::RapidIntoPart)] = 1;
   picture.result = resultOf(picture, facts);
   const TestFolder scratch("dotek-page");
   std::ofstream(scratch / "page.html", std::ios::binary) << pictureHtml(picture);
@@ -197,8 +200,9 @@ TEST_CASE("html: in Chromium the slider moves the probe and the numbers are thos
   for (std::size_t i = 0; i < picture.moves.size(); ++i) {
     const json& shown = result["shown"][i];
     CHECK(shown[0] == i);
-    CHECK(shown[1] == dotek::fixedText(picture.moves[i].to.x, 3));
-    CHECK(shown[2] == dotek::fixedText(picture.moves[i].to.y, 3));
-    CHECK(shown[3] == dotek::fixedText(picture.moves[i].to.z, 3));
+    const Point3 at = i + 1 == picture.moves.size() ? picture.errors[0].at : picture.moves[i].to;
+    CHECK(shown[1] == dotek::fixedText(at.x, 3));
+    CHECK(shown[2] == dotek::fixedText(at.y, 3));
+    CHECK(shown[3] == dotek::fixedText(at.z, 3));
   }
 }

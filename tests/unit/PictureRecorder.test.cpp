@@ -148,3 +148,31 @@ TEST_CASE("picture recorder: the number of moves is bounded, the world goes on")
   CHECK(r.recorder.picture().contacts.empty());
   CHECK(r.world.events().size() == 1);
 }
+
+TEST_CASE("recorder: a run that an alarm ends before its first move stands where it began") {
+  const auto end = [](Recording& run) {
+    RunFacts facts;
+    facts.end.ending = Ending::Alarm;
+    facts.end.number = 3007;
+    facts.end.text = "PROBE NOT CALIBRATED";
+    facts.block = {"#3000=7", "a.nc:2"};
+    run.recorder.finish(facts);
+    return run.recorder.picture();
+  };
+  Recording known;
+  known.recorder.setPlace([] { return Point3{30, 40, 92}; });
+  known.recorder.setFrame([] { return PictureFrame{"G54", {0, 0, 100}}; });
+  const Picture picture = end(known);
+  CHECK(picture.still);
+  REQUIRE(picture.moves.size() == 1);
+  CHECK(picture.moves[0].to == Point3{30, 40, 92});
+  REQUIRE(picture.errors.size() == 1);
+  CHECK(picture.errors[0].at == Point3{30, 40, 92});
+  CHECK(picture.result->position.starts_with("G54 X30.000 Y40.000 Z90.000; machine X30.000"));
+  CHECK(picture.result->counts.back() == "0 moves");
+  CHECK(pictureHtml(picture).find("\"count\":0,\"still\":true,") != std::string::npos);
+  CHECK(pictureSvg(picture).find("without a place") == std::string::npos);
+
+  Recording unknown; // where the machine stands is not stated
+  CHECK_FALSE(end(unknown).still);
+}

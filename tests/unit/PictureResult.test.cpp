@@ -117,6 +117,17 @@ TEST_CASE("result: an alarm is the banner of both pictures, with number, text an
   }
 }
 
+TEST_CASE("result: a run that passes with warnings says how many") {
+  Picture picture = borePicture();
+  picture.errors.clear();
+  RunFacts facts = factsOf(Ending::ProgramEnd);
+  facts.warnings = 2;
+  const PictureResult result = resultOf(picture, facts);
+  CHECK(result.word == "PASS");
+  CHECK(result.text == "the program came to its end; 2 warnings, listed below");
+  CHECK(result.counts.back() == "2 warnings");
+}
+
 TEST_CASE("result: every ending has a word and a verdict") {
   Picture picture = borePicture();
   picture.errors.clear();
@@ -173,4 +184,9 @@ TEST_CASE("result: a collision comes before the alarm that follows from it; a mi
   clean.errors.clear();
   CHECK(resultOf(clean, missed).word == "PASS, WITH MISSES");
   CHECK(resultOf(clean, missed).verdict == Verdict::Doubt);
+  // The miss is the worst of that run: the pictures show it, though a touch comes after it.
+  clean.errors.push_back({clean.moves[3].to, "met nothing", 3, std::nullopt, PictureError::Kind::Miss});
+  CHECK(resultOf(clean, missed).error == 0);
+  CHECK(resultOf(clean, missed).place == "bore.nc:4");
+  clean.errors.clear();
 }
