@@ -85,7 +85,7 @@ private:
                   : "");
     if (d_.verdict == "DIFFERS")
       return "The two sides do not do the same: " + d_.pair +
-             ". Each difference is below, with the lines that make it.";
+             ". Each difference is below, with the lines that lead to it where they are known.";
     return "Too little could be decided to say that the two sides do the same: " + d_.pair +
            ". The reasons are below.";
   }

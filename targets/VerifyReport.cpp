@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <set>
 #include <tuple>
+#include <utility>
 
 namespace dotek::targets {
 
@@ -297,6 +298,47 @@ std::string VerifyReport::replay(const verify::Case& drawn) const {
   return out + " --replay";
 }
 
+namespace {
+
+// A line without the blanks before it.
+SourceRange lineRange(const SourceMap& sources, FileId id, std::uint32_t line) {
+  const SourceFile& file = sources.file(id);
+  const std::string_view text = file.line(line);
+  const std::size_t blank = std::min(text.find_first_not_of(" \t"), text.size());
+  const std::uint32_t begin = file.lineStart(line);
+  return {id, begin + static_cast<std::uint32_t>(blank), begin + static_cast<std::uint32_t>(text.size())};
+}
+
+// The line of the only statement of a macro program that writes a variable ("#100"). 0: there is none, or
+// there are several, or one that computes which variable it writes.
+std::uint32_t onlyWriteOf(const SourceFile& file, std::string_view variable) {
+  std::uint32_t found = 0;
+  for (std::uint32_t line = 1; line <= file.lineCount(); ++line) {
+    std::string code; // without blanks and comments
+    bool comment = false;
+    for (const char c : file.line(line)) {
+      if (c == '(') comment = true;
+      if (!comment && c != ' ' && c != '\t') code += c;
+      if (c == ')') comment = false;
+    }
+    if (code.find("]=") != std::string::npos || code.find("##") != std::string::npos) return 0;
+    const std::string write = std::string(variable) + '=';
+    for (std::size_t at = code.find(write); at != std::string::npos; at = code.find(write, at + 1))
+      if (std::exchange(found, line) != 0) return 0;
+  }
+  return found;
+}
+
+// "#100" of the text of a difference that begins with it; "": no variable.
+std::string variableOf(const CaseFinding& finding) {
+  const std::string& text = finding.text;
+  if (finding.aspect != verify::Aspect::Variable || !text.starts_with('#')) return "";
+  const std::size_t end = text.find_first_not_of("0123456789", 1);
+  return end == 1 ? "" : text.substr(0, end);
+}
+
+} // namespace
+
 void VerifyReport::tellDifference(const Group& group, std::uint64_t of) {
   Diagnostics& diagnostics = runner_.session().diagnostics();
   const verify::Case smallest = options_.replay ? group.drawn : shrink(group);
@@ -305,6 +347,16 @@ void VerifyReport::tellDifference(const Group& group, std::uint64_t of) {
   const std::string_view which = group.edge ? " at edges" : "";
   SourceRange place = group.finding.source;
   if (!place.hasPlace()) place = sourceOfLine(group.finding.targetLine);
+  std::uint32_t targetLine = group.finding.targetLine;
+  if (const std::string variable = variableOf(group.finding);
+      plan_.programs && plan_.translation && !variable.empty()) {
+    const SourceMap& sources = runner_.session().sources();
+    if (const SourceRange source = place.hasPlace() ? place : runner_.place(); source.hasPlace())
+      if (const std::uint32_t line = onlyWriteOf(sources.file(source.file), variable))
+        place = lineRange(sources, source.file, line);
+    const FileId translation = targetRange(1).file;
+    if (const std::uint32_t line = onlyWriteOf(sources.file(translation), variable)) targetLine = line;
+  }
   const bool post = group.finding.pair == CaseFinding::Pair::PathAndPost;
   Diagnostic& finding =
       post ? diagnostics.report<diag::VerifyPathDiffers>(place, aspect, group.finding.text, group.count, of,
@@ -326,12 +378,9 @@ void VerifyReport::tellDifference(const Group& group, std::uint64_t of) {
   document_.differences.push_back(
       {std::string(pairName(group.finding.pair)), std::string(aspect), group.finding.text, group.count, of,
        group.edge, excerptOf(place), excerptOf(group.finding.posted),
-       group.finding.targetLine == 0 ? VerifyDocument::Excerpt{}
-                                     : excerptOf(targetRange(group.finding.targetLine)),
-       command});
+       targetLine == 0 ? VerifyDocument::Excerpt{} : excerptOf(targetRange(targetLine)), command});
   if (group.finding.posted.hasPlace()) finding.note(group.finding.posted, "the post prints this here");
-  if (group.finding.targetLine != 0)
-    finding.note(targetRange(group.finding.targetLine), "of the translation");
+  if (targetLine != 0) finding.note(targetRange(targetLine), "of the translation");
   finding.note({}, "replay: " + command);
   told_ = std::move(diagnostics);
 }
@@ -357,10 +406,7 @@ SourceRange VerifyReport::sourceOfLine(std::uint32_t line) const {
   for (FileId id = 0; id < sources.size(); ++id) {
     const SourceFile& file = sources.file(id);
     if (file.name() != name || number > file.lineCount()) continue;
-    const std::string_view text = file.line(number);
-    const std::size_t blank = std::min(text.find_first_not_of(" \t"), text.size());
-    const std::uint32_t begin = file.lineStart(number);
-    return {id, begin + static_cast<std::uint32_t>(blank), begin + static_cast<std::uint32_t>(text.size())};
+    return lineRange(sources, id, number);
   }
   return {};
 }
@@ -470,8 +516,15 @@ std::string VerifyReport::verdict() {
   constexpr std::string_view kWords[] = {"AGREES", "DIFFERS", "UNDECIDED"};
   std::string out = fmt::format("{}: {}", kWords[static_cast<std::size_t>(word)],
                                 part(cases_.agree, cases_.differ, undecided, cases_.all(), " drawn cases"));
-  if (edges_.all() > 0)
-    out += "; edge cases: " + part(edgesAlike, edges_.differ, edges_.none, edges_.all(), "");
+  if (edges_.all() > 0) {
+    const std::uint64_t said = word == Word::Differs ? edges_.differ : edges_.none;
+    const std::string edges = part(edgesAlike, edges_.differ, edges_.none, edges_.all(), "");
+    // "0 of 10, 10 agree" would be read as none of them agreeing.
+    const std::size_t comma = edges.find(", ");
+    out += "; edge cases: " + (word != Word::Agrees && said == 0 && comma != std::string::npos
+                                   ? fmt::format("{} of {}", edges.substr(comma + 2), edges_.all())
+                                   : edges);
+  }
   if (edges_.refused > 0) out += fmt::format(", {} refused", edges_.refused);
   document_.verdict = kWords[static_cast<std::size_t>(word)];
   document_.summary = out;

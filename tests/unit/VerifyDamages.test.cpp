@@ -3,7 +3,10 @@
 #include "tests/GoldenRunner.h"
 #include "tests/Process.h"
 
+#include <array>
 #include <doctest/doctest.h>
+#include <string>
+#include <vector>
 
 using namespace dotek::tests;
 
@@ -190,4 +193,27 @@ TEST_CASE("verify: the replay of a difference keeps planes that are one") {
   CHECK(valueOf("clearance") == valueOf("retract"));
   CHECK(valueOf("clearance") != "0");
   CHECK(!valueOf("clearance").empty());
+}
+
+TEST_CASE("verify: a difference of a variable names the statements that write it") {
+  const ProcessFolder folder;
+  const std::string body = "IF[#1EQ#0]THEN#3000=1(A)\nG0X#1\n#101=#1*2\n#5221=#5221+#1\n#103=#101*2\n"
+                           "#102=#101+1\nG4X1.\nM99\n";
+  folder.write("a.nc", "O9720\n" + body);
+  const auto told = [&](const std::string& from, const std::string& to) {
+    std::string bad = body;
+    bad.replace(bad.find(from), from.size(), to);
+    folder.write("bad.nc", "%\nO9720\n" + bad + "%\n");
+    return folder.run("dotek verify a.nc --to fanuc --translation bad.nc --cases 20").err;
+  };
+  for (const auto& [from, to, line] :
+       std::vector<std::array<std::string, 3>>{{"#101+1", "#101+2", "7"}, {"#101*2", "#101*3", "6"}}) {
+    const std::string said = told(from, to);
+    CHECK_MESSAGE(said.find("a.nc:" + line + ":") != std::string::npos, said);
+    CHECK_MESSAGE(said.find("bad.nc:" + std::to_string(std::stoi(line) + 1) + ":") != std::string::npos,
+                  said);
+  }
+  // Whether the one or the other writes it is not known.
+  folder.write("a.nc", "O9720\n#102=1\n" + body);
+  CHECK(told("#101+1", "#101+2").find("a.nc:8:") == std::string::npos);
 }
