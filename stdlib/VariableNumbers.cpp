@@ -67,7 +67,8 @@ bool isReadAlone(const Control& control, std::uint32_t variable) {
       within(v.toolWearToo, number, 1) || within(v.toolGeometryToo, number, 1))
     return true;
   return std::any_of(control.state.begin(), control.state.end(), [&](const StateRange& range) {
-    return range.access == StateRange::Access::ReadOnly && variable >= range.first && variable <= range.last;
+    const bool isOne = (variable >= range.first && variable <= range.last) || range.word == variable;
+    return isOne && (range.access == StateRange::Access::ReadOnly || range.null);
   });
 }
 
