@@ -13,6 +13,7 @@
 #include "support/messages/Mikroprog.h"
 #include "support/messages/Nc.h"
 #include "support/messages/Output.h"
+#include "support/messages/Posts.h"
 #include "support/messages/Sim.h"
 #include "support/messages/Verify.h"
 
@@ -182,6 +183,7 @@ bool isUsageCode(std::string_view code) {
       diag::FlagOfOtherTarget::code, diag::UnknownDatum::code,     diag::OptionOfCycles::code,
       diag::OptionOfPrograms::code,  diag::OtherDialect::code,     diag::ProgramTarget::code,
       diag::OptionOfMacroB::code,    diag::ScriptNotRun::code,     diag::BaselineUnreadable::code,
+      diag::PostNotTaken::code,
   };
   return std::find(kCodes.begin(), kCodes.end(), code) != kCodes.end();
 }

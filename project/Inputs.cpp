@@ -1,10 +1,12 @@
 #include "project/Inputs.h"
 
 #include "project/Foreign.h"
+#include "project/PostShape.h"
 #include "support/Files.h"
 #include "support/messages/Commands.h"
 #include "support/messages/Common.h"
 #include "support/messages/Cycle.h"
+#include "support/messages/Posts.h"
 
 #include <algorithm>
 
@@ -17,6 +19,10 @@ bool refusesStream(const std::string& path, SourceRange where, Session& session)
 }
 
 void reportNoInput(const std::string& path, const Recognition& found, Session& session) {
+  if (isPost(found)) {
+    session.diagnostics().report<diag::PostNotTaken>({}, inputName(path));
+    return;
+  }
   Diagnostics ignored;
   const std::optional<std::string> text =
       isStream(path) ? std::nullopt : readBeginning(path, kRecognisedBytes, ignored);

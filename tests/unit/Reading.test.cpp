@@ -294,6 +294,22 @@ TEST_CASE("reading: what is no input is one error that names the kinds, in every
         "reads it as one [wrong-kind]\n");
 }
 
+TEST_CASE("reading: a post where a program is expected is named with the commands that take it") {
+  const DataFolder folder;
+  for (const char* name : {"tool.cps", "tool.js"}) {
+    folder.write(name, "var xyzFormat = createFormat({decimals: 3});\nfunction onSection() {\n"
+                       "  writeBlock(gFormat.format(0));\n}\nfunction onClose() {\n  writeln(\"%\");\n}\n");
+    for (const std::vector<std::string>& command :
+         {std::vector<std::string>{"sim", name}, {"verify", name}, {"convert", name, "--to", "fanuc"}}) {
+      const CommandResult run = dotekIn(folder, command);
+      CHECK(run.status == 2);
+      CHECK_MESSAGE(holds(run.err, std::string("`") + name + "` is a post of Fusion"), run.err);
+      CHECK_MESSAGE(holds(run.err, std::string("`dotek lint ") + name + "`"), run.err);
+      CHECK_MESSAGE(!holds(run.err, "none of the files"), run.err);
+    }
+  }
+}
+
 TEST_CASE("reading: FIFOs, standard input and its names give what the file gives") {
   const DataFolder folder;
   folder.write("bad.nc", kBad);
