@@ -70,13 +70,13 @@ void printedFormat(const CheckedProgram& input, Report& report) {
       const bool digits =
           std::all_of(format.begin(), format.end(), [](char c) { return c >= '0' && c <= '9'; });
       if (digits && format.size() == (print->binary ? 1 : 2)) continue;
-      report.at(
-          print->range,
-          "`#{}` is printed with the format `[{}]`; {}; the control stops with an alarm; write `#100[{}]`",
-          variable->variable, format,
-          print->binary ? "BPRNT takes one digit, the decimals"
-                        : "DPRNT takes two digits, before and after the point",
-          print->binary ? "3" : "53");
+      report.at(print->range,
+                "`#{0}` is printed with the format `[{1}]`; {2}; the control stops with an alarm; write "
+                "`#{0}[{3}]`",
+                variable->variable, format,
+                print->binary ? "BPRNT takes one digit, the decimals"
+                              : "DPRNT takes two digits, before and after the point",
+                print->binary ? "3" : "53");
       break;
     }
   }
@@ -279,7 +279,7 @@ void wordRepeated(const CheckedProgram& input, Report& report) {
   }
 }
 
-// Blocks that say their motion, and nothing else that could take a word.
+// Blocks that say their motion or choose a work offset, and nothing else that could take a word.
 void wordNotTaken(const CheckedProgram& input, Report& report) {
   // Under cutter compensation, which a caller may have begun, I, J and K of a straight move state a
   // direction.
@@ -292,17 +292,32 @@ void wordNotTaken(const CheckedProgram& input, Report& report) {
       });
   const std::string_view letters = compensates ? "ELPQR" : "EIJKLPQR";
   for (const Words* words : input.plain) {
-    bool straight = false, certain = true;
+    bool straight = false, skips = false, certain = true;
+    const nc::Word* system = nullptr;
     for (const nc::Word& word : words->words) {
       if (word.address == 'M' || word.address == 'T') certain = false;
       if (word.address != 'G') continue;
       const auto code = literal(word);
       straight = straight || (code && (*code == 0 || *code == 1));
-      certain = certain && code && isPlain(*code);
+      skips = skips || (code && *code == 31);
+      if (code && *code >= 54 && *code <= 59) system = &word;
+      certain = certain && code && (isPlain(*code) || *code == 31);
     }
-    if (!straight || !certain) continue;
+    if (!certain) continue;
+    if (!straight && !skips) {
+      // A canned cycle in force could take other letters, and P beside an axis.
+      if (const nc::Word* number = findWord(*words, 'P');
+          system != nullptr && number != nullptr && !hasAny(*words, "XYZIJKLQR"))
+        report.at(number->range,
+                  "`{1}` beside `{0}`: a control ignores it, stops with an alarm or takes the two for an "
+                  "additional work offset; write `G54.1 {1}` if that is meant, or leave `{1}` out",
+                  wordText(*system), wordText(*number));
+      continue;
+    }
+    // P, Q and others choose the skip signal or the like on some controls.
+    const std::string_view refused = skips ? "IJK" : letters;
     for (const nc::Word& word : words->words)
-      if (word.value != nullptr && letters.find(word.address) != std::string_view::npos)
+      if (word.value != nullptr && refused.find(word.address) != std::string_view::npos)
         report.at(
             word.range,
             "nothing in this block takes `{}`; the control ignores it or stops with an alarm, and the code "

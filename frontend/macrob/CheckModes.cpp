@@ -3,6 +3,7 @@
 #include "frontend/macrob/BlockWords.h"
 #include "frontend/macrob/Calls.h"
 #include "frontend/macrob/Check.h"
+#include "frontend/macrob/Walk.h"
 
 #include <algorithm>
 #include <array>
@@ -40,6 +41,56 @@ template <class Visit> void eachBlock(const CheckedProgram& input, const Visit& 
     const auto* words = std::get_if<Words>(&block.body);
     if (words == nullptr || block.repaired || !modes[i] || !isPlain(*words)) continue;
     visit(*words, *modes[i], within(*words, *modes[i]));
+  }
+}
+
+// The plane's axes, 0 for X; `plane`: 17 to 19.
+std::array<long, 2> axesOf(int plane) {
+  const std::array<char, 2>& letters = lettersOf(plane).axes;
+  return {letters[0] - 'X', letters[1] - 'X'};
+}
+
+// The number of the work offset (54 to 59) that a block `G10 L2 P` sets in the plane, 53 for the external one
+// that all of them add; 0: it sets none, or which is not known.
+int setsSystem(const Words& words, int plane) {
+  if (plane == 0 || findCode(words, 'G', 10) == nullptr || findCode(words, 'L', 2) == nullptr) return 0;
+  const std::array<char, 2>& letters = lettersOf(plane).axes;
+  if (!hasAny(words, std::string(letters.begin(), letters.end()))) return 0;
+  const nc::Word* system = findWord(words, 'P');
+  const auto number = system == nullptr ? std::nullopt : literal(*system);
+  if (!number || !(*number >= 0 && *number <= 6) || *number != std::floor(*number)) return 0;
+  return 53 + static_cast<int>(*number);
+}
+
+// The same of an assignment to the variable of an offset.
+int setsSystem(long variable, int plane, const stdlib::Control& control) {
+  const stdlib::SystemVariables& v = control.variables;
+  for (const long axis : axesOf(plane)) {
+    const long inSystem = axis * v.axisStep;
+    if (v.externalX && variable == *v.externalX + inSystem) return 53;
+    for (int system = 0; v.workOffsetX && system < 6; ++system)
+      if (variable == *v.workOffsetX + system * v.systemStep + inSystem) return 54 + system;
+  }
+  return 0;
+}
+
+// Assignments to an offset that counts in the turned coordinates.
+void offsetUnderRotation(const CheckedProgram& input, Report& report) {
+  const std::vector<std::optional<Modes>>& modes = input.modes();
+  for (std::size_t i = 0; i < modes.size(); ++i) {
+    if (!modes[i] || modes[i]->rotation != Certain::Yes || modes[i]->plane == 0) continue;
+    const nc::Assignment* assignment = assignmentOf(input.program.blocks[i]);
+    const auto number = assignment == nullptr ? std::nullopt : literal(*assignment->variable);
+    if (!number || !(*number >= 1000 && *number < 1e6)) continue;
+    if (!input.onEach([&](const stdlib::Control& control) {
+          const int set = setsSystem(std::lround(*number), modes[i]->plane, control);
+          return set == 53 || (set != 0 && set == modes[i]->system);
+        }))
+      continue;
+    report.at({assignment->range.file, assignment->range.begin, assignment->variable->range.end},
+              "#{} moves the zero while G68 turns the coordinates; the manuals of Fanuc do not allow it, and "
+              "the control moves to another place or stops with an alarm; write G69 before it",
+              std::lround(*number));
   }
 }
 
@@ -131,11 +182,14 @@ void modeForbidsCode(const CheckedProgram& input, Report& report) {
       const nc::Word* code = findAny(words, {52, 92});
       const nc::Word* plane = findAny(words, {17, 18, 19});
       if (plane != nullptr && before.plane != 0 && before.plane != now.plane) code = plane;
-      const nc::Word* system = findAny(words, {54, 55, 56, 57, 58, 59});
+      const nc::Word* system = findAny(words, {54, 54.1, 55, 56, 57, 58, 59});
       if (system != nullptr && before.system != 0 && before.system != now.system) code = system;
+      if (const int set = setsSystem(words, now.plane); set == 53 || (set != 0 && set == now.system))
+        code = findAny(words, {10});
       if (code != nullptr) return tell(*code, "G68 turns the coordinates", "write G69 before it");
     }
   });
+  offsetUnderRotation(input, report);
 }
 
 // ---- arcs
@@ -246,7 +300,18 @@ void arcGeometry(const CheckedProgram& input, Report& report) {
 // ---- rotation
 
 void rotationWords(const CheckedProgram& input, Report& report) {
-  eachBlock(input, [&](const Words& words, const Modes&, const Modes& now) {
+  eachBlock(input, [&](const Words& words, const Modes& before, const Modes& now) {
+    if (now.motion >= 0 && now.distance == 91 && now.rotation == Certain::No && takesWords(words) == nullptr)
+      for (std::size_t axis = 0; axis < before.turned.size(); ++axis) {
+        const nc::Word* word = findWord(words, static_cast<char>('X' + axis));
+        if (!before.turned[axis] || word == nullptr || literal(*word) == 0.0) continue;
+        report.at(word->range,
+                  "`{}` is the first move of this axis after G69, and incremental; the manuals of Fanuc ask "
+                  "for an absolute one, as the control may count from where the program was in turned "
+                  "coordinates; write it under G90",
+                  wordText(*word));
+        break;
+      }
     const nc::Word* code = findCode(words, 'G', 68);
     if (code == nullptr || hasAny(words, "IJK")) return;
     if (const nc::Word* off = findCode(words, 'G', 69))
@@ -262,12 +327,21 @@ void rotationWords(const CheckedProgram& input, Report& report) {
                 "`{}`: an angle is from -360 to 360 degrees; the control stops with an alarm; correct it",
                 wordText(*angle));
     if (now.plane == 0) return;
-    const char depth = lettersOf(now.plane).depth;
-    if (const nc::Word* word = findWord(words, depth))
-      report.at(word->range,
+    const auto [depth, axes] = std::pair(lettersOf(now.plane).depth, lettersOf(now.plane).axes);
+    const nc::Word *first = findWord(words, axes[0]), *second = findWord(words, axes[1]);
+    const nc::Word* outside = findWord(words, depth);
+    if (outside == nullptr && (first == nullptr) != (second == nullptr)) {
+      const nc::Word& given = first != nullptr ? *first : *second;
+      report.at(given.range,
+                "the centre of the rotation has `{0}` and no {1}; the control takes the other from where the "
+                "tool is, or stops with an alarm; write {1}, or leave `{0}` out if the tool is at the centre",
+                wordText(given), axes[first != nullptr ? 1 : 0]);
+    }
+    if (outside != nullptr)
+      report.at(outside->range,
                 "the centre of a rotation lies in the plane, which is G{}, and `{}` does not; the control "
                 "stops with an alarm or moves {}; leave it out",
-                now.plane, wordText(*word), depth);
+                now.plane, wordText(*outside), depth);
   });
 }
 

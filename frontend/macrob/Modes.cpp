@@ -44,6 +44,8 @@ Modes joined(Modes a, const Modes& b) {
   a.motion = joined(a.motion, b.motion, -1);
   for (std::size_t i = 0; i < a.at.size(); ++i)
     if (a.at[i] != b.at[i]) a.at[i].reset();
+  for (std::size_t i = 0; i < a.turned.size(); ++i)
+    a.turned[i] = a.turned[i] && b.turned[i];
   a.callsAfterMoves = a.callsAfterMoves || b.callsAfterMoves;
   return a;
 }
@@ -143,6 +145,25 @@ void move(const Words& words, Modes& modes, const stdlib::Control* control) {
   }
 }
 
+// Which axes moved in turned coordinates. G28 and others that take the words go to a place of the machine.
+void turn(const Words& words, const Modes& before, Modes& modes) {
+  bool other = findCode(words, 'M', 6) != nullptr;
+  for (const nc::Word& word : words.words) {
+    const auto code = word.address == 'G' ? literal(word) : std::nullopt;
+    other = other || (code && isOneOf(*code, {4, 10, 28, 29, 30, 31, 52, 53, 60, 68, 92}));
+  }
+  const bool turns = before.rotation == Certain::Yes && modes.rotation == Certain::Yes && modes.plane != 0;
+  for (std::size_t i = 0; i < modes.turned.size(); ++i) {
+    const auto letter = static_cast<char>('X' + i);
+    if (!hasWord(words, letter)) continue;
+    const bool inPlane = turns && letter != lettersOf(modes.plane).depth;
+    if (inPlane && !other && modes.motion >= 0)
+      modes.turned[i] = true;
+    else if (other || modes.distance != 91)
+      modes.turned[i] = false;
+  }
+}
+
 Modes after(const Block& block, const Modes& before, const stdlib::Control* control) {
   if (std::holds_alternative<Unread>(block.body) || block.repaired) return unknown(before);
   const auto* words = std::get_if<Words>(&block.body);
@@ -169,6 +190,7 @@ Modes after(const Block& block, const Modes& before, const stdlib::Control* cont
     if (out.plane == 0 || hasWord(*words, lettersOf(out.plane).depth)) out.depth = Certain::Yes;
   }
   move(*words, out, control);
+  turn(*words, before, out);
   return out;
 }
 

@@ -28,7 +28,9 @@ struct Modes {
   int system = 0;                          // 54 to 59
   int motion = -1;                         // 0 to 3; -1: not known
   std::array<std::optional<double>, 3> at; // programmed X, Y, Z; nothing: not known
-  bool callsAfterMoves = false;            // G66
+  // X, Y, Z that moved in turned coordinates, and not by an absolute move since.
+  std::array<bool, 3> turned{};
+  bool callsAfterMoves = false; // G66
 
   bool operator==(const Modes&) const = default;
 };

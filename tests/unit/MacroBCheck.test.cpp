@@ -86,6 +86,9 @@ TEST_CASE("macrob check: numbers of variables (1.3, 1.11)") {
   CHECK(program("#4001=1", k31) == "E 2:1 read-only-written");
   CHECK(program("#5041=1.", k0i) == "E 2:1 read-only-written");
   CHECK(program("IF[#1EQ1]THEN#5061=1.", k31) == "E 2:14 read-only-written");
+  CHECK(program("#1000=1", k0i) == "E 2:1 read-only-written");
+  CHECK(program("#1032=#1132", k0i) == "E 2:1 read-only-written"); // all inputs as one word
+  CHECK(program("#1132=#1032", k0i) == "");
   CHECK(program("#5041=1.") == ""); // which control is not known
   CHECK(program("#5221=1.\n#3000=5(STOP)\n#1=#4001", k31) == "");
 }
@@ -304,4 +307,24 @@ TEST_CASE("macrob check: data, dwells, signals and sums that no value mends") {
   CHECK(program("/M98 P1") == "");
   CHECK(program("M98 P1") == "W 2:5 calls-itself");
   CHECK(program("IF[#1EQ1]GOTO5\nM98 P1\nN5 M98 P1") == "W 4:8 calls-itself");
+}
+
+TEST_CASE("macrob check: a format is proposed with the variable that is printed") {
+  MacroFile file("O1\nPOPEN\nDPRNT[X#1[2]]\nBPRNT[X#101[22]]\nPCLOS\nM99\n");
+  file.check();
+  REQUIRE(file.diagnostics.all().size() == 2);
+  CHECK(file.diagnostics.all()[0].message.find("write `#1[53]`") != std::string::npos);
+  CHECK(file.diagnostics.all()[1].message.find("write `#101[3]`") != std::string::npos);
+}
+
+TEST_CASE("macrob check: offsets while coordinates are turned are those in force, in the plane") {
+  const auto turned = [](const std::string& block) {
+    return program("G17 G90 G54 G0 X0 Y0\nG68 X0 Y0 R5.\n" + block + "\nG69", k0i);
+  };
+  CHECK(turned("G10 L2 P0 Y1.") == "W 4:1 mode-forbids-code");
+  CHECK(turned("G10 L2 P1 Z1.") == "");
+  CHECK(turned("#5222=1.") == "W 4:1 mode-forbids-code");
+  CHECK(turned("#5201=1.") == "W 4:1 mode-forbids-code");
+  CHECK(turned("#5241=1.") == "");
+  CHECK(turned("IF[#1EQ1]GOTO5\nG69\nN5 #5221=1.") == ""); // one path has ended it
 }
