@@ -305,6 +305,7 @@ TEST_CASE("reading: a post where a program is expected is named with the command
       CHECK(run.status == 2);
       CHECK_MESSAGE(holds(run.err, std::string("`") + name + "` is a post of Fusion"), run.err);
       CHECK_MESSAGE(holds(run.err, std::string("`dotek lint ") + name + "`"), run.err);
+      CHECK_MESSAGE(holds(run.err, "[post-not-taken]"), run.err);
       CHECK_MESSAGE(!holds(run.err, "none of the files"), run.err);
     }
   }
