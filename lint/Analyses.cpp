@@ -1,5 +1,7 @@
 #include "lint/Analyses.h"
 
+#include "lint/OffsetStates.h"
+
 namespace dotek::lint {
 
 const SharedInputs& Analyses::shared(const Project& project) {
@@ -40,8 +42,23 @@ const std::vector<NameUse>& Analyses::names(const gibbs::Macro& macro, const Pro
   return names_.emplace(&macro, collectNames(macro, project)).first->second;
 }
 
+const std::set<std::uint32_t>& Analyses::called(const macrob::File& file, const Project& project) {
+  if (!called_) {
+    called_.emplace();
+    eachProgram(project, [&](const ir::Program& program, const macrob::File& where) {
+      for (const ir::ProgramStatement& statement : program.body)
+        if (const auto number = calledProgram(statement)) (*called_)[&where].insert(*number);
+    });
+  }
+  return (*called_)[&file];
+}
+
 const SharedInputs& sharedOf(const Project& project) {
   return project.analyses->shared(project);
+}
+
+const std::set<std::uint32_t>& calledIn(const macrob::File& file, const Project& project) {
+  return project.analyses->called(file, project);
 }
 
 const std::vector<NameUse>& namesOf(const gibbs::Macro& macro, const Project& project) {

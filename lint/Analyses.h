@@ -10,6 +10,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <vector>
 
 namespace dotek::lint {
@@ -33,6 +34,8 @@ public:
                                        const compost::Program& prog, const Project& project);
 
   const std::vector<NameUse>& names(const gibbs::Macro& macro, const Project& project);
+  // Numbers of programs, by the file in which they are called.
+  const std::set<std::uint32_t>& called(const macrob::File& file, const Project& project);
 
   // Posts of Fusion: what only their rules look at is no part of Project.h, which all others read.
   std::vector<const PostFile*> posts;
@@ -45,6 +48,7 @@ private:
   std::optional<std::vector<Siblings>> siblings_;
   std::map<const std::vector<compost::Statement>*, std::vector<ProgBlock>> blocks_;
   std::map<const gibbs::Macro*, std::vector<NameUse>> names_;
+  std::optional<std::map<const macrob::File*, std::set<std::uint32_t>>> called_;
 };
 
 } // namespace dotek::lint

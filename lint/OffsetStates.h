@@ -27,6 +27,9 @@ std::optional<Offset> statedOffset(const ir::ProgramStatement& statement,
 // The program that a G65 or M98 with a number that is written out calls; nothing: another statement.
 std::optional<std::uint32_t> calledProgram(const ir::ProgramStatement& statement);
 
+// The numbers that programs of this file call in that way.
+const std::set<std::uint32_t>& calledIn(const macrob::File& file, const Project& project);
+
 // Programs of the files that turn the offset on or off.
 std::set<std::uint32_t> switchingPrograms(const Project& project);
 

@@ -45,18 +45,6 @@ bool isLast(const NcProgram& nc) {
   return !programs.empty() && programs.back().name && programs.back().name->number == nc.program.number;
 }
 
-// A program of the file calls this one, so that the file holds all of it.
-bool isCalledHere(const NcProgram& nc) {
-  bool called = false;
-  eachProgram(nc.project, [&](const ir::Program& program, const macrob::File& file) {
-    called = called || (&file == &nc.file &&
-                        std::any_of(program.body.begin(), program.body.end(), [&](const auto& one) {
-                          return callOf(one) != nullptr && calledProgram(one) == nc.program.number;
-                        }));
-  });
-  return called;
-}
-
 void check(const NcProgram& nc, Report& report) {
   const ir::Program& program = nc.program;
   if (program.nameKind == ir::Program::NameKind::None || program.body.empty()) return;
@@ -96,7 +84,9 @@ void check(const NcProgram& nc, Report& report) {
         "has "
         "opened: a transfer that broke off leaves this; the control waits for more, or stops with an alarm, "
         "with the spindle and the modes as they are; send the program again");
-  else if (past != nullptr && isCalledHere(nc))
+  // One that its own file calls is there as a whole.
+  else if (past != nullptr &&
+           calledIn(nc.file, nc.project).contains(static_cast<std::uint32_t>(nc.program.number)))
     report.at(past->origin.range(),
               "O{} is called in this file and goes on past its last block; the control does not come back to "
               "the caller, or stops with an alarm; end it with M99",
