@@ -35,7 +35,7 @@ std::string offsetsFact(const SystemVariables& v, std::uint32_t number) {
     return fmt::format("external work offset, {}", axis);
   for (int system = 0; system < 6 && v.systemStep > 0; ++system)
     if (const char axis = axisAt(number, *v.workOffsetX + system * v.systemStep, v.axisStep))
-      if (v.axisStep > 1 || axis < 'D') return fmt::format("work offset G{}, {}", 54 + system, axis);
+      return fmt::format("work offset G{}, {}", 54 + system, axis);
   if (v.extendedX && v.extendedStep > 0) {
     const std::int64_t distance = static_cast<std::int64_t>(number) - *v.extendedX;
     if (distance >= 0 && distance / v.extendedStep < v.extendedCount)

@@ -5,6 +5,7 @@
 #include "project/CycleFiles.h"
 #include "project/Session.h"
 
+#include <cstdint>
 #include <fmt/format.h>
 #include <map>
 #include <set>
@@ -46,6 +47,8 @@ private:
               const std::string& detail) {
     const std::string key = "name " + name.text;
     index_.occurrences.push_back({key, Role::Definition, name.range});
+    defined_.insert(name.range.begin);
+    if (!fact.empty()) index_.facts.push_back({name.range, fact});
     if (known_.insert(name.text).second) {
       index_.symbols.push_back({name.text, detail, kind, range, name.range, {}});
       // A parameter or result is known to callers; what only this file sees may be renamed.
@@ -93,7 +96,9 @@ private:
     if (const auto* call = std::get_if<cycle::Call>(&statement.node)) called(*call);
     if (const auto* used = std::get_if<cycle::Use>(&statement.node))
       index_.occurrences.push_back({"cycle " + used->name.text, Role::Read, used->name.range});
-    if (const auto* assign = std::get_if<cycle::Assign>(&statement.node)) name(assign->name, Role::Write);
+    if (const auto* assign = std::get_if<cycle::Assign>(&statement.node);
+        assign && !defined_.contains(assign->name.range.begin))
+      name(assign->name, Role::Write);
     eachExpression(statement, [&](const cycle::Expression& one) { expression(one); });
   }
 
@@ -190,6 +195,7 @@ private:
   Index& index_;
   project::CycleFiles& library_;
   std::set<std::string> known_;
+  std::set<std::uint32_t> defined_; // where names are defined
   std::map<std::string, std::string> facts_;
 };
 

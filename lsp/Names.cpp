@@ -41,9 +41,9 @@ struct Use {
   const Occurrence* occurrence = nullptr;
 };
 
-// Names that are known in all files of a cycle's folder; others are of their file.
+// Names that are known in all files of a cycle's folder; others are of their file, as the labels of a macro.
 bool isShared(const std::string& key) {
-  return key.starts_with("field ") || key.starts_with("label ");
+  return key.starts_with("field ");
 }
 
 std::vector<Use> usesOf(Workspace& workspace, const Document& document, const std::string& key) {

@@ -160,6 +160,49 @@ TEST_CASE("lsp: a block number is renamed with its jumps, other names are refuse
         std::string::npos);
 }
 
+TEST_CASE("lsp: a name is changed once at each place, and a label in its own macro alone") {
+  const TestFolder folder("lsp-rename-once");
+  Client client;
+  const std::string cycle =
+      "cycle two \"Two\"\n\nresult r : length\n\nrun_x = 1 mm\nrun_x = run_x + 1 mm\nr = run_x\n";
+  const std::string path = folder.write("two.cycle", cycle);
+  client.open(path, cycle);
+  Json params = at(path, 4, 1);
+  params["newName"] = "off";
+  const Json edits = client.result("textDocument/rename", params)["changes"][uriOf(path)];
+  CHECK(edits.size() == 4);
+  for (std::size_t i = 0; i < edits.size(); ++i)
+    for (std::size_t k = i + 1; k < edits.size(); ++k)
+      CHECK(edits[i]["range"] != edits[k]["range"]);
+
+  folder.write("side/DefineData.txt", "X = 10\n");
+  folder.write("side/CycleData.dlg", "");
+  folder.write("side/ToolPath.mac", "GOTO ask\n:ask\n");
+  const std::string text = "if X < 1 then message \"near\"\nGOTO ask\n:ask\n";
+  const std::string macro = folder.write("side/CycleData.mac", text);
+  client.open(macro, text);
+  Json label = at(macro, 1, 6);
+  label["newName"] = "again";
+  const Json changes = client.result("textDocument/rename", label)["changes"];
+  CHECK(changes.size() == 1);
+  CHECK(changes[uriOf(macro)].size() == 2);
+}
+
+TEST_CASE("lsp: hover of the zeros of the work systems") {
+  const TestFolder folder("lsp-zeros");
+  const std::string text = "O1\n#1=#5221\n#2=#5242\n#3=#5263\nM99\n";
+  folder.write("dotek.toml", "[lint]\ncontrol = \"fanuc-0i-md\"\n");
+  const std::string path = folder.write("O1.nc", text);
+  Client client;
+  client.open(path, text);
+  const auto hover = [&](int line) {
+    return client.result("textDocument/hover", at(path, line, 5))["contents"]["value"].get<std::string>();
+  };
+  CHECK(hover(1).find("work offset G54, X") != std::string::npos);
+  CHECK(hover(2).find("work offset G55, Y") != std::string::npos);
+  CHECK(hover(3).find("work offset G56, Z") != std::string::npos);
+}
+
 TEST_CASE("lsp: a cycle's folder is one unit") {
   const TestFolder folder("lsp-cycle");
   const std::filesystem::path from = std::filesystem::current_path() / "examples/surface-x";
