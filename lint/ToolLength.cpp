@@ -409,8 +409,10 @@ std::vector<LengthLeftIn> ToolLengths::leftIn(const ir::Program& program) const 
         if (held.lengths != 0) given.insert(variable);
   std::vector<LengthLeftIn> out = known_->search(program, &known_->left).run(given);
   if (passed == known_->passed.end()) return out;
-  for (const Passing& one : passed->second)
-    for (LengthLeftIn& found : known_->search(program, &known_->left).runPassed(one))
+  // More calls of one program pass what others do, and each is a walk through it.
+  constexpr std::size_t kMostCalls = 8;
+  for (std::size_t i = 0; i < std::min(kMostCalls, passed->second.size()); ++i)
+    for (LengthLeftIn& found : known_->search(program, &known_->left).runPassed(passed->second[i]))
       out.push_back(std::move(found));
   return out;
 }
