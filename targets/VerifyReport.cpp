@@ -309,34 +309,6 @@ SourceRange lineRange(const SourceMap& sources, FileId id, std::uint32_t line) {
   return {id, begin + static_cast<std::uint32_t>(blank), begin + static_cast<std::uint32_t>(text.size())};
 }
 
-// The line of the only statement of a macro program that writes a variable ("#100"). 0: there is none, or
-// there are several, or one that computes which variable it writes.
-std::uint32_t onlyWriteOf(const SourceFile& file, std::string_view variable) {
-  std::uint32_t found = 0;
-  for (std::uint32_t line = 1; line <= file.lineCount(); ++line) {
-    std::string code; // without blanks and comments
-    bool comment = false;
-    for (const char c : file.line(line)) {
-      if (c == '(') comment = true;
-      if (!comment && c != ' ' && c != '\t') code += c;
-      if (c == ')') comment = false;
-    }
-    if (code.find("]=") != std::string::npos || code.find("##") != std::string::npos) return 0;
-    const std::string write = std::string(variable) + '=';
-    for (std::size_t at = code.find(write); at != std::string::npos; at = code.find(write, at + 1))
-      if (std::exchange(found, line) != 0) return 0;
-  }
-  return found;
-}
-
-// "#100" of the text of a difference that begins with it; "": no variable.
-std::string variableOf(const CaseFinding& finding) {
-  const std::string& text = finding.text;
-  if (finding.aspect != verify::Aspect::Variable || !text.starts_with('#')) return "";
-  const std::size_t end = text.find_first_not_of("0123456789", 1);
-  return end == 1 ? "" : text.substr(0, end);
-}
-
 } // namespace
 
 void VerifyReport::tellDifference(const Group& group, std::uint64_t of) {
@@ -347,16 +319,7 @@ void VerifyReport::tellDifference(const Group& group, std::uint64_t of) {
   const std::string_view which = group.edge ? " at edges" : "";
   SourceRange place = group.finding.source;
   if (!place.hasPlace()) place = sourceOfLine(group.finding.targetLine);
-  std::uint32_t targetLine = group.finding.targetLine;
-  if (const std::string variable = variableOf(group.finding);
-      plan_.programs && plan_.translation && !variable.empty()) {
-    const SourceMap& sources = runner_.session().sources();
-    if (const SourceRange source = place.hasPlace() ? place : runner_.place(); source.hasPlace())
-      if (const std::uint32_t line = onlyWriteOf(sources.file(source.file), variable))
-        place = lineRange(sources, source.file, line);
-    const FileId translation = targetRange(1).file;
-    if (const std::uint32_t line = onlyWriteOf(sources.file(translation), variable)) targetLine = line;
-  }
+  const std::uint32_t targetLine = group.finding.targetLine;
   const bool post = group.finding.pair == CaseFinding::Pair::PathAndPost;
   Diagnostic& finding =
       post ? diagnostics.report<diag::VerifyPathDiffers>(place, aspect, group.finding.text, group.count, of,

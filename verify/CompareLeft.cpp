@@ -9,8 +9,11 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <map>
 #include <optional>
 #include <set>
+#include <string>
+#include <utility>
 
 namespace dotek::verify {
 
@@ -40,6 +43,26 @@ private:
     addFirst(out_, {aspect, std::move(text), source, target});
   }
 
+  // Where a side wrote it last. Where that is not known, what follows the last measure made it.
+  template <class Key>
+  static SourceRange writtenIn(const Record& record, const std::map<Key, SourceRange>& places,
+                               const Key& key) {
+    const auto found = places.find(key);
+    return found == places.end() ? lastMeasure(record) : found->second;
+  }
+  static SourceRange zeroIn(const Record& record, const std::pair<std::uint32_t, std::uint32_t>& key) {
+    const char axis = "XYZ"[key.second];
+    const std::string name = fmt::format("{} {}", systemName(key.first), axis);
+    return writtenIn(record, record.offsetAt,
+                     record.offsetAt.contains(name) ? name : fmt::format("external {}", axis));
+  }
+  static SourceRange toolIn(const Record& record, std::uint32_t number) {
+    const bool radius = number > kRadiusTable;
+    return writtenIn(
+        record, record.offsetAt,
+        fmt::format("{}tool {}", radius ? "radius of " : "", radius ? number - kRadiusTable : number));
+  }
+
   void zeros() {
     for (const auto& [key, value] : source_.zeros) {
       const auto other = target_.zeros.find(key);
@@ -55,7 +78,7 @@ private:
               : fmt::format("{} {} {}{} against {}", what,
                             shift ? "has shifted all work systems by is" : "lies at", where,
                             shift ? "" : " of the machine", fixedText(other->second, kShown)),
-          lastMeasure(source_), lastMeasure(target_));
+          zeroIn(source_, key), zeroIn(target_, key));
       return;
     }
   }
@@ -67,7 +90,7 @@ private:
       add(Aspect::Offset,
           fmt::format("the translation moves the zero of {} along {} to {}, the source does not",
                       systemName(key.first), "XYZ"[key.second], fixedText(value, kShown)),
-          lastMeasure(source_), lastMeasure(target_));
+          zeroIn(source_, key), zeroIn(target_, key));
       return;
     }
   }
@@ -104,7 +127,7 @@ private:
           fmt::format("{}tool offset {}: the source {}, the translation {}",
                       number > kRadiusTable ? "radius of " : "",
                       number > kRadiusTable ? number - kRadiusTable : number, tell(one), tell(other)),
-          lastMeasure(source_), lastMeasure(target_));
+          toolIn(source_, number), toolIn(target_, number));
       return;
     }
   }
@@ -118,7 +141,7 @@ private:
       if (both && isNumber(one->second) && isNumber(other->second)) {
         const ShownNumbers shown = shownNumbers(one->second, other->second);
         add(Aspect::Variable, fmt::format("#{} is {} against {}", number, shown.source, shown.target),
-            lastMeasure(source_), lastMeasure(target_));
+            writtenIn(source_, source_.storedAt, number), writtenIn(target_, target_.storedAt, number));
         return;
       }
       const auto left = [&](const std::map<std::uint32_t, double>& stores, const auto& found) {
@@ -130,7 +153,7 @@ private:
       add(Aspect::Variable,
           fmt::format("#{}: the source {}, the translation {}", number, left(source_.stores, one),
                       left(target_.stores, other)),
-          lastMeasure(source_), lastMeasure(target_));
+          writtenIn(source_, source_.storedAt, number), writtenIn(target_, target_.storedAt, number));
     };
     for (const auto& [number, value] : source_.stores) {
       const auto other = target_.stores.find(number);

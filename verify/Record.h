@@ -182,6 +182,9 @@ struct Record {
   std::map<std::uint32_t, sim::Machine::ToolOffset> tools; // entries of the tool table that were changed
   std::optional<std::uint32_t> tool;                       // that T has named last; nothing: that at entry
   std::map<std::uint32_t, double> stores; // variables that the program itself writes; kNull is a value
+  // Where these, and offsets ("G54 X", "tool 5", "radius of tool 5"), were written last; none: not known.
+  std::map<std::uint32_t, SourceRange> storedAt;
+  std::map<std::string, SourceRange> offsetAt;
   // Of the variables that are watched (Stand::watchStores) those that it leaves with another value.
   std::map<std::uint32_t, double> strays;
   std::string printed; // by DPRNT and BPRNT, bytes

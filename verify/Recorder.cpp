@@ -243,11 +243,6 @@ void Recorder::moved(const sim::MachineMotion& motion) {
   }
 }
 
-void Recorder::offsetWritten(const sim::OffsetWrite& write) {
-  if (call_.depth == 0 && write.name.ends_with(" Z") && !record_.ownOffsetOfZ)
-    record_.ownOffsetOfZ = record_.measures.size();
-}
-
 Measure Recorder::begunMeasure() {
   for (std::uint32_t system = 0; system < call_.zeros.size(); ++system)
     call_.zeros[system] = machine_.zeroOf(system);
@@ -462,6 +457,18 @@ void Recorder::touchBegins(std::span<const sim::PlannedTouch> touches) {
   record_.measures.push_back(std::move(measure));
 }
 
+void Recorder::offsetWritten(const sim::OffsetWrite& write) {
+  if (call_.depth == 0 && write.name.ends_with(" Z") && !record_.ownOffsetOfZ)
+    record_.ownOffsetOfZ = record_.measures.size();
+  std::string name = write.name;
+  // Length, geometry and wear make one offset.
+  if (name.starts_with("tool ")) {
+    const bool radius = name.find(" radius") != std::string::npos;
+    name = (radius ? "radius of " : "") + name.substr(0, name.find(' ', 5));
+  }
+  record_.offsetAt[name] = call_.depth > 0 ? call_.range : place();
+}
+
 Record Recorder::finish(const std::set<std::uint32_t>& stores) {
   const sim::RunEnd& end = machine_.end();
   switch (end.ending) {
@@ -518,7 +525,10 @@ Record Recorder::finish(const std::set<std::uint32_t>& stores) {
       record_.tools.emplace(number, tools[number]);
   for (const std::uint32_t number : stores) {
     const double value = machine_.common(number);
-    if (!sim::isFresh(value)) record_.stores.emplace(number, value);
+    if (sim::isFresh(value)) continue;
+    record_.stores.emplace(number, value);
+    if (const SourceRange at = run_ != nullptr ? run_->lastWrite(number) : SourceRange{}; at.hasPlace())
+      record_.storedAt.emplace(number, at);
   }
   const auto same = [](double one, double other) {
     const auto unset = [](double value) { return sim::isFresh(value) || sim::isNull(value); };

@@ -48,7 +48,6 @@ public:
     mark(value ? Mark::Kind::Value : Mark::Kind::Position, file, value.value_or(0));
   }
   bool isThere(const sim::SkipMove& here) override;
-  void offsetWritten(const sim::OffsetWrite& write) override;
   void callBegins(std::uint32_t program, std::span<const double> locals) override;
   void callEnded(std::uint32_t program) override;
   void touchedApart() override;
@@ -57,6 +56,7 @@ public:
   void touchEnded() override { endOwn(); }
   void protectedBegins(std::optional<double> feed) override;
   void protectedEnded() override { endOwn(); }
+  void offsetWritten(const sim::OffsetWrite& write) override;
   void assumeProbe(Switch probe) { probe_ = probe; }
   // Without a part: each measuring move makes its contact, no other one does. So a run shows all that the
   // program would measure. A bare skip move makes it at this share of its path, or where it comes to the

@@ -315,6 +315,7 @@ bool Solid::link(const Ruling& a, const Ruling& b, std::uint32_t i, std::uint32_
 
 // Whether the piece is so short that it is nearly straight; sets its sag, with a margin.
 bool Solid::smooth(Piece& piece) const {
+  edges_->work += 20;
   Vec q;
   const double length = (piece.b - piece.a).norm();
   if (!onCurve(piece, 0.5, q)) return false;
@@ -343,13 +344,42 @@ double Solid::bend(const Surface& surface, const Piece& piece, double length) {
   return 2 * piece.sag + length * length / (2 * surface.radius);
 }
 
+// Where the surface crosses the piece, whose ends lie on different sides of it.
+double Solid::crossing(const Piece& piece, const Surface& surface, double atBegin, double atEnd) const {
+  double from = 0, to = 1;
+  int last = 0;
+  for (int n = 0; n < 60 && to - from > 1e-15; ++n) {
+    const double u = n < 40 ? (from * atEnd - to * atBegin) / (atEnd - atBegin) : (from + to) / 2;
+    edges_->work += 20;
+    Vec q;
+    if (!onCurve(piece, u, q)) q = piece.a + u * (piece.b - piece.a);
+    const double value = surface.value(q);
+    if (std::abs(value) < 1e-13) return u;
+    // Illinois: an end that stays twice counts half.
+    if (value * atBegin > 0) {
+      from = u;
+      atBegin = value;
+      if (last > 0) atEnd /= 2;
+      last = 1;
+    } else {
+      to = u;
+      atEnd = value;
+      if (last < 0) atBegin /= 2;
+      last = -1;
+    }
+  }
+  return (from + to) / 2;
+}
+
 // Cuts a curved piece where other surfaces cross it and keeps what is an edge of the part.
 bool Solid::keep(const Piece& piece, int depth) const {
   if (edges_->work > mostWork_) return false;
-  const double length = (piece.b - piece.a).norm();
-  if (!isOnOwners((piece.a + piece.b) / 2, piece, length + piece.sag + 1e-6)) return true;
+  const double length = (piece.b - piece.a).norm(), reach = length + piece.sag + 1e-6;
+  const Vec centre = (piece.a + piece.b) / 2;
+  if (!isOnOwners(centre, piece, reach)) return true;
+  edges_->work += static_cast<double>(shapes.size());
   // Far from all that is left of the part it is no edge, and cuts in it would be for nothing.
-  if (std::abs(shapesBound((piece.a + piece.b) / 2)) > length + piece.sag + 1e-6) return true;
+  if (std::abs(shapesBound(centre)) > reach) return true;
   edges_->work += static_cast<double>(2 * surfaces_.size());
   std::vector<double> cuts = {0, 1};
   bool halve = false;
@@ -357,19 +387,17 @@ bool Solid::keep(const Piece& piece, int depth) const {
     if (k == piece.first || k == piece.second) continue;
     const double va = surfaces_[k].value(piece.a), vb = surfaces_[k].value(piece.b);
     if (std::abs(va) < 1e-9 && std::abs(vb) < 1e-9) continue; // goes along with it
-    if (va * vb < 0) {
-      double from = 0, to = 1;
-      for (int n = 0; n < 60; ++n) {
-        const double u = (from + to) / 2;
-        Vec q;
-        if (!onCurve(piece, u, q)) q = piece.a + u * (piece.b - piece.a);
-        (surfaces_[k].value(q) * va > 0 ? from : to) = u;
-      }
-      cuts.push_back((from + to) / 2);
-    } else if (std::abs(va) + std::abs(vb) < 1.2 * length && length > kShort &&
-               std::min(std::abs(va), std::abs(vb)) <= bend(surfaces_[k], piece, length)) {
-      halve = true; // it may cross twice
-    }
+    const bool crosses = va * vb < 0;
+    const bool mayCrossTwice = !crosses && std::abs(va) + std::abs(vb) < 1.2 * length && length > kShort &&
+                               std::min(std::abs(va), std::abs(vb)) <= bend(surfaces_[k], piece, length);
+    if (!crosses && !mayCrossTwice) continue;
+    edges_->work += 1;
+    // A surface has no end; its shape has.
+    if (std::abs(shapes[surfaces_[k].shape].distance(centre)) > reach) continue;
+    if (crosses)
+      cuts.push_back(crossing(piece, surfaces_[k], va, vb));
+    else
+      halve = true;
   }
   Vec middle;
   if (halve && depth < 24 && onCurve(piece, 0.5, middle)) {

@@ -39,11 +39,14 @@ double blockDistance(const Shape& s, const Vec& p, Vec& gradient) {
   return stretched(qy - s.d, 0, sy, p.z(), s.c, gradient);
 }
 
+// Sizes and places are bounded: nothing overflows, and std::hypot takes several times as long.
+double lengthOf(double x, double y) { return std::sqrt(x * x + y * y); }
+
 double coneDistance(const Shape& s, const Vec& p, Vec& gradient) {
-  const double rho = std::hypot(p.x(), p.y()), z = p.z();
+  const double rho = lengthOf(p.x(), p.y()), z = p.z();
   const double ux = rho > 0 ? p.x() / rho : 1, uy = rho > 0 ? p.y() / rho : 0;
   // The side, from (a, -c) to (b, c) in the plane of rho and z; its normal points outward.
-  const double dr = s.b - s.a, dz = 2 * s.c, length = std::hypot(dr, dz);
+  const double dr = s.b - s.a, dz = 2 * s.c, length = lengthOf(dr, dz);
   const double nr = dz / length, nz = -dr / length;
   const double side = (rho - s.a) * nr + (z + s.c) * nz;
   const double caps = std::abs(z) - s.c;
@@ -57,10 +60,10 @@ double coneDistance(const Shape& s, const Vec& p, Vec& gradient) {
   // Outside: the nearest of the two caps and the side.
   const double cap = z < 0 ? s.a : s.b;
   const double toCapR = std::max(rho - cap, 0.0), toCapZ = z - signOf(z) * s.c;
-  double best = std::hypot(toCapR, toCapZ), gr = toCapR, gz = toCapZ;
+  double best = lengthOf(toCapR, toCapZ), gr = toCapR, gz = toCapZ;
   const double along = std::clamp(((rho - s.a) * dr + (z + s.c) * dz) / (length * length), 0.0, 1.0);
   const double toSideR = rho - (s.a + along * dr), toSideZ = z - (-s.c + along * dz);
-  if (const double d = std::hypot(toSideR, toSideZ); d < best || (caps <= 0 && d <= best)) {
+  if (const double d = lengthOf(toSideR, toSideZ); d < best || (caps <= 0 && d <= best)) {
     best = d;
     gr = toSideR;
     gz = toSideZ;

@@ -101,6 +101,7 @@ private:
   bool link(const Ruling& a, const Ruling& b, std::uint32_t i, std::uint32_t j, int depth) const;
   Ruling ruling(double angle, std::uint32_t i, std::uint32_t j) const;
   bool smooth(Piece& piece) const;
+  double crossing(const Piece& piece, const Surface& surface, double atBegin, double atEnd) const;
   bool keep(const Piece& piece, int depth) const;
   static double bend(const Surface& surface, const Piece& piece, double length);
   bool isOnOwners(const Vec& q, const Piece& piece, double reach) const;

@@ -197,7 +197,8 @@ void Run::run() {
   const bool decimal = control_.arithmetic == stdlib::Arithmetic::Decimal8;
   for (bool goesOn = true; goesOn;) {
     followsMisses_ = followsMisses_ || (misses_ != nullptr && misses_->hasMisses());
-    if (machine_.hasUnknown() || !unset_.empty() || followsMisses_ || !measured_.empty() || trail_)
+    if (machine_.hasUnknown() || !unset_.empty() || followsMisses_ || !measured_.empty() || trail_ ||
+        !lastWrites_.empty())
       goesOn = decimal ? execute<true, true>() : execute<false, true>();
     else
       goesOn = decimal ? execute<true, false>() : execute<false, false>();
@@ -208,6 +209,16 @@ bool Run::knows(std::uint32_t cell) {
   if (cell >= machine_.layout().size() || !isUnknown(cells_[cell])) return true;
   return refuse(
       fmt::format("#{} is read, and what a macro left there is not known", machine_.layout().numberOf(cell)));
+}
+
+void Run::noteWritten(std::uint32_t cell) {
+  if (cell < lastWrites_.size()) lastWrites_[cell] = place_;
+}
+
+SourceRange Run::lastWrite(std::uint32_t number) const {
+  const std::uint32_t cell = machine_.layout().cellOf(number);
+  if (cell >= lastWrites_.size() || lastWrites_[cell] == kNoCell) return {};
+  return code_.statementOf(lastWrites_[cell]).origin.range();
 }
 
 void Run::noteUnset(std::uint32_t number) {
@@ -242,6 +253,7 @@ void Run::followMeasured(const Instruction& at, unsigned operands) {
 
 void Run::takeMeasured() {
   for (const std::uint32_t number : machine_.takeMeasured()) {
+    noteWritten(machine_.layout().cellOf(number));
     if (listener_ == nullptr) continue;
     const std::uint32_t cell = machine_.layout().cellOf(number);
     if (cell != CellLayout::kNone && cell > machine_.layout().locals()) measured_.insert(cell);
@@ -298,6 +310,7 @@ bool Run::writeAt(double number, double value) {
   if (ahead_ && expectsMotion_) noteWrite(n);
   if (!machine_.write(n, value)) return false;
   measured_.erase(machine_.layout().cellOf(n));
+  noteWritten(machine_.layout().cellOf(n));
   if (listener_ != nullptr) tellWritten(n, value);
   return true;
 }
@@ -343,6 +356,7 @@ template <bool kDecimal8, bool kWatched> bool Run::execute() {
         if ((operands & 1) != 0) noteUnsetCell(at->a);
         if ((operands & 2) != 0) noteUnsetCell(at->b);
       }
+      if (setsCell(at->op)) noteWritten(at->c);
       if (followsMisses_) followMiss(*at);
       if (!measured_.empty()) followMeasured(*at, operands);
       if (trail_) followLoop();

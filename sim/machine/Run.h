@@ -54,6 +54,9 @@ public:
   // Before the run: notes where one of these common variables counts as 0, since nobody has set it. A run
   // that watches takes longer.
   void watchUnset(std::set<std::uint32_t> numbers) { unset_ = std::move(numbers); }
+  // Before the run: notes where common variables are written last. Such a run takes longer, too.
+  void watchWrites() { lastWrites_.assign(machine_.layout().size(), kNoCell); }
+  SourceRange lastWrite(std::uint32_t number) const; // without a place: nowhere, or nobody watches
   // Before the run: values are followed that come from where a skip move
   // has ended that met nothing. The watcher outlives the run.
   void watchMisses(MissWatcher* watcher);
@@ -104,7 +107,8 @@ private:
 
   // Watched: a cell may hold what a macro left and nobody knows; who reads it ends the run.
   template <bool kDecimal8, bool kWatched> bool execute();
-  bool knows(std::uint32_t cell); // false: it does not, and the run has ended
+  bool knows(std::uint32_t cell);       // false: it does not, and the run has ended
+  void noteWritten(std::uint32_t cell); // by the instruction that runs
   void noteUnset(std::uint32_t number);
   void noteUnsetCell(std::uint32_t cell);
   void tellRead(std::uint32_t number, double value);
@@ -233,7 +237,8 @@ private:
   std::uint64_t passes_ = 0;
   std::vector<double> lastPass_; // the machine as the last pass began
   std::map<std::uint64_t, std::string> unreadable_;
-  std::vector<bool> readEarly_; // by instruction
+  std::vector<bool> readEarly_;           // by instruction
+  std::vector<std::uint32_t> lastWrites_; // by cell: the place of the instruction
 };
 
 } // namespace dotek::sim

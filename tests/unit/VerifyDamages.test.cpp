@@ -213,7 +213,45 @@ TEST_CASE("verify: a difference of a variable names the statements that write it
     CHECK_MESSAGE(said.find("bad.nc:" + std::to_string(std::stoi(line) + 1) + ":") != std::string::npos,
                   said);
   }
-  // Whether the one or the other writes it is not known.
+  // Of several the one that ran last, also where it computes which variable it writes.
   folder.write("a.nc", "O9720\n#102=1\n" + body);
-  CHECK(told("#101+1", "#101+2").find("a.nc:8:") == std::string::npos);
+  const std::string again = told("#101+1", "#101+2");
+  CHECK_MESSAGE(again.find("a.nc:8:") != std::string::npos, again);
+  folder.write("a.nc", "O9720\n#9=100\n" + body.substr(0, body.find("G4")) + "#[#9+2]=#102*2\nM99\n");
+  folder.write("bad.nc", "O9720\n#9=100\n" + body.substr(0, body.find("G4")) + "#[#9+2]=#102*3\nM99\n");
+  const std::string computed = folder.run("dotek verify a.nc --to fanuc --translation bad.nc --cases 20").err;
+  CHECK_MESSAGE(computed.find("a.nc:9:1: error: variable differs: #102") != std::string::npos, computed);
+  CHECK_MESSAGE(computed.find("bad.nc:9:1: note: of the translation") != std::string::npos, computed);
+}
+
+// The touch comes first: a reader who is shown it looks for the fault in the wrong block.
+TEST_CASE("verify: a difference of an offset names the statements that write it") {
+  const ProcessFolder folder;
+  const std::string head = "O9721\nIF[#1EQ#0]THEN#3000=1(A)\n";
+  const std::string touch = "G91G31Z-5.F50\nG90\n";
+  const auto told = [&](const std::string& write, const std::string& other, const std::string& first = "") {
+    folder.write("a.nc", head + first + touch + write + "G4X1.\nM99\n");
+    folder.write("bad.nc", "%\n" + head + first + touch + other + "G4X1.\nM99\n%\n");
+    return folder.run("dotek verify a.nc --to fanuc --translation bad.nc --cases 20").err;
+  };
+  struct Offset {
+    std::string aspect, write, other;
+  };
+  for (const Offset& one : std::vector<Offset>{{"work offset", "#5223=#5223+#1\n", "#5223=#5223-#1\n"},
+                                               {"work offset", "#[5220+3]=#1\n", "#[5220+3]=#1+1.\n"},
+                                               {"work offset", "G90G10L2P1Z#1\n", "G90G10L2P1Z[#1+1.]\n"},
+                                               {"tool", "#2001=#1\n", "#2001=-#1\n"},
+                                               {"tool", "G90G10L11P3R#1\n", "G90G10L11P3R[#1+1.]\n"}}) {
+    for (const std::string& first : {std::string(), one.write}) { // several writes, too
+      const std::string said = told(one.write, one.other, first);
+      const int line = first.empty() ? 5 : 6;
+      const std::size_t at = said.find(" differs: ");
+      REQUIRE_MESSAGE(at != std::string::npos, one.write, said);
+      CHECK_MESSAGE(
+          said.find("a.nc:" + std::to_string(line) + ":1: error: " + one.aspect) != std::string::npos, said);
+      CHECK_MESSAGE(said.find("bad.nc:" + std::to_string(line + 1) + ":1: note: of the translation") !=
+                        std::string::npos,
+                    said);
+    }
+  }
 }
