@@ -117,13 +117,26 @@ void declareCommands(CLI::App& app, const std::vector<std::string>& arguments, R
     command->footer(helpFooter(command->get_name()));
 }
 
+// What `dotek --help` prints; help() of a program whose command is named is that of the command.
+std::string overviewOf(const CLI::App& app) {
+  return app.get_formatter()->make_help(&app, app.get_name(), CLI::AppFormatMode::Normal);
+}
+
+// The same, and what each command prints.
+std::string helpOfAll(const CLI::App& app) {
+  std::vector<CommandFlagsText> commands;
+  for (const CLI::App* command : app.get_subcommands(nullptr))
+    commands.push_back({command->get_name(), command->help(app.get_name())});
+  return commandsPage(overviewOf(app), commands);
+}
+
 // `dotek help [TOPIC]`.
 int printHelp(const CLI::App& app, const std::vector<std::string>& topics, std::ostream& out) {
   if (topics.empty()) {
-    out << app.help() << "\n" << helpTopics();
+    out << overviewOf(app) << "\n" << helpTopics();
     return kDone;
   }
-  const std::string page = helpOn(topics.front());
+  const std::string page = topics.front() == kCommandsTopic ? helpOfAll(app) : helpOn(topics.front());
   if (page.empty()) {
     const std::string near = nearestName(topics.front(), helpTopicNames());
     throw UsageError("no page `" + topics.front() + "`" +

@@ -1,5 +1,10 @@
 #include "cli/Help.h"
 
+#include "driver/Driver.h"
+#include "driver/Facts.h"
+#include "lint/Catalog.h"
+#include "lint/Page.h"
+
 #include <algorithm>
 #include <fmt/format.h>
 #include <iterator>
@@ -40,19 +45,96 @@ constexpr CommandHelp kCommands[] = {
     {"fmt", "dotek fmt examples/cycles/bore.cycle --check", "cycles"},
     {"doc", "dotek doc examples/cycles -o pages", "cycles"},
     {"preview", "dotek preview examples/surface-x -o dialog.html", "preview"},
-    {"lsp", "", "editor"},
+    {"lsp", "nvim --cmd \"luafile editors/nvim/dotek.lua\" examples/macros/bore.nc", "editor"},
     {"outline", "dotek outline examples/macros/bore.nc", "outline"},
     {"renumber", "dotek renumber examples/macros/bore.nc --start 10 --step 10 -o O9110.nc", "renumber"},
-    {"flatten", "", "flatten"},
+    {"flatten",
+     "dotek flatten examples/macros/bore.nc --call \"D30. Z-5. S55\" --part examples/macros/plate.toml \\\n"
+     "          --machine examples/macros/mill.toml --at 30,40,10 --var 520=5.97 -o flat.nc",
+     "flatten"},
     {"help", "dotek help cycles\ndotek help tutorials/my-first-cycle", "help"},
 };
 
+std::string_view withoutSuffix(std::string_view name) {
+  constexpr std::string_view kSuffix = ".md";
+  return name.ends_with(kSuffix) ? name.substr(0, name.size() - kSuffix.size()) : name;
+}
+
 std::string_view topicOf(const HelpPage& page) {
-  return page.name.substr(0, page.name.size() - std::string_view(".md").size());
+  return withoutSuffix(page.name);
 }
 
 std::string_view lineAt(std::string_view text, std::size_t at) {
   return text.substr(at, text.find('\n', at) - at);
+}
+
+// "# Title" -> "Title"; a schema's is its member `title`.
+std::string_view titleOf(std::string_view text) {
+  constexpr std::string_view kMember = "\"title\": \"";
+  if (const std::size_t at = text.find(kMember); text.starts_with("{"))
+    return at == std::string_view::npos
+               ? ""
+               : lineAt(text, at + kMember.size())
+                     .substr(0, text.find('"', at + kMember.size()) - at - kMember.size());
+  const std::string_view line = lineAt(text, 0);
+  return line.substr(std::min(line.find(' ') + 1, line.size()));
+}
+
+// Pages that docs/ does not hold: what the program says of itself.
+struct MadePage {
+  std::string_view name, title;
+};
+constexpr MadePage kMade[] = {
+    {kCommandsTopic, "Commands"}, {"controls", "Controls"}, {"cycles-library", "Cycles of the library"},
+    {"messages", "Messages"},     {"rules", "Rules"},
+};
+
+std::string indented(std::string_view text) {
+  std::string out;
+  while (!text.empty()) {
+    const std::string_view line = lineAt(text, 0);
+    out += line.empty() ? "\n" : fmt::format("    {}\n", line);
+    text.remove_prefix(std::min(line.size() + 1, text.size()));
+  }
+  return out;
+}
+
+// The table of all, and what is known of each. Those of Mikroprog have a page of their own.
+std::string controlsPage() {
+  const std::string all = driver::list("controls", {}).output;
+  std::string out = "# Controls\n\n" + indented(all);
+  for (std::string_view rest = all; !rest.empty();) {
+    const std::string_view line = lineAt(rest, 0);
+    rest.remove_prefix(std::min(line.size() + 1, rest.size()));
+    const std::string name(line.substr(0, line.find(' ')));
+    if (!name.starts_with("mikroprog"))
+      out += fmt::format("\n## {}\n\n{}", name, indented(driver::listFacts("controls", name, {}).output));
+  }
+  return out;
+}
+
+std::string messagesPage() {
+  std::string out =
+      "# Messages\n\n`dotek help messages/NAME` prints an example and the repair of each message of "
+      "a group, `dotek explain CODE` those of one.\n\n";
+  for (const lint::MessagePage& page : lint::messagePages())
+    out += fmt::format("    {:<20} {}\n", fmt::format("messages/{}", withoutSuffix(page.name)),
+                       titleOf(page.text));
+  return out;
+}
+
+// "": the topic is no such page.
+std::string madePage(std::string_view topic) {
+  if (topic == "controls") return controlsPage();
+  if (topic == "cycles-library") return "# Cycles of the library\n\n" + driver::catalogue({}).output;
+  if (topic == "messages") return messagesPage();
+  if (topic == "rules" || topic == "rules/README") return lint::rulesReadme();
+  constexpr std::string_view kRules = "rules/", kMessages = "messages/";
+  if (topic.starts_with(kRules)) return std::string(lint::pageOf(topic.substr(kRules.size())));
+  if (topic.starts_with(kMessages))
+    for (const lint::MessagePage& page : lint::messagePages())
+      if (withoutSuffix(page.name) == topic.substr(kMessages.size())) return std::string(page.text);
+  return "";
 }
 
 bool titleNames(std::string_view title, std::string_view word) {
@@ -76,24 +158,34 @@ std::string sectionOf(std::string_view page, std::string_view command) {
 } // namespace
 
 std::string helpOn(std::string_view topic) {
-  if (topic.ends_with(".md")) topic.remove_suffix(3);
+  topic = withoutSuffix(topic);
   if (topic.starts_with("docs/")) topic.remove_prefix(5);
   for (const HelpPage& page : helpPages()) {
     const std::string_view name = topicOf(page);
     if (name == topic || name == fmt::format("tutorials/{}", topic)) return std::string(page.text);
   }
+  if (std::string made = madePage(topic); !made.empty()) return made;
   for (const HelpPage& page : helpPages())
     if (topicOf(page) == "cli") return sectionOf(page.text, topic);
   return "";
 }
 
+std::string commandsPage(std::string_view overview, std::span<const CommandFlagsText> commands) {
+  std::string out = "# Commands\n\n" + indented(overview);
+  for (const CommandFlagsText& one : commands)
+    out += fmt::format("\n## {}\n\n{}", one.name, indented(one.text));
+  return out;
+}
+
 std::string helpTopics() {
   std::string out = "Pages, `dotek help TOPIC`:\n";
-  for (const HelpPage& page : helpPages()) {
-    const std::string_view title = lineAt(page.text, 0);
-    out += fmt::format("  {:<27} {}\n", topicOf(page),
-                       title.substr(std::min(title.find(' ') + 1, title.size())));
-  }
+  for (const HelpPage& page : helpPages())
+    out += fmt::format("  {:<28} {}\n", topicOf(page), titleOf(page.text));
+  out += "Made by the program:\n";
+  for (const MadePage& page : kMade)
+    out += fmt::format("  {:<28} {}\n", page.name, page.title);
+  out += "  rules/RULE                   one rule\n"
+         "  messages/GROUP               messages of one group\n";
   return out + "`dotek COMMAND --help` prints the flags of a command.\n";
 }
 
@@ -120,6 +212,8 @@ std::vector<std::string> helpTopicNames() {
   std::vector<std::string> out;
   for (const HelpPage& page : helpPages())
     out.emplace_back(topicOf(page));
+  for (const MadePage& page : kMade)
+    out.emplace_back(page.name);
   for (const CommandHelp& one : kCommands)
     out.emplace_back(one.name);
   return out;

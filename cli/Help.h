@@ -14,12 +14,19 @@ struct HelpPage {
   std::string_view text;
 };
 
-// Those that users need, as they were when the program was built, sorted by name. Generated.
+// As they were when the program was built, sorted by name; without those of rules and messages. Generated.
 std::span<const HelpPage> helpPages();
 
-// What `dotek help TOPIC` prints: the page of that name, else the section of a command in cli.md; "": there
-// is neither.
+// What `dotek help TOPIC` prints: the page of that name, one that the program makes, else the section of a
+// command in cli.md; "": there is neither, or it is that of commands.
 std::string helpOn(std::string_view topic);
+
+// The topic whose page is the help of each command.
+constexpr std::string_view kCommandsTopic = "commands";
+struct CommandFlagsText {
+  std::string name, text;
+};
+std::string commandsPage(std::string_view overview, std::span<const CommandFlagsText> commands);
 
 // Each page with its title, a line each.
 std::string helpTopics();

@@ -39,22 +39,9 @@ def run(*command, text=None):
     return done.stdout
 
 
-def fenced(text):
-    return "\n".join("    " + line for line in text.rstrip("\n").split("\n")) + "\n"
-
-
 def generated(dotek):
-    """Pages that the program makes: its commands with their flags, its controls, its cycles."""
-    top = run(dotek, "--help")
-    names = re.findall(r"^  ([a-z][a-z-]+) ", top[top.index("\nSubcommands:"):], re.M)
-    commands = "# Commands\n\n" + fenced(top) + "".join(f"\n## {name}\n\n{fenced(run(dotek, name, '--help'))}" for name in names)
-    controls = "# Controls\n\n"
-    table = run(dotek, "list", "controls")
-    controls += fenced(table)
-    # The facts of a Mikroprog control are a page of their own, docs/mikroprog.md.
-    for name in [line.split()[0] for line in table.splitlines() if not line.startswith("mikroprog")]:
-        controls += f"\n## {name}\n\n{fenced(run(dotek, 'list', 'controls', name))}"
-    return {"commands": commands, "controls": controls, "cycles-library": "# Cycles of the library\n\n" + run(dotek, "doc")}
+    """Pages that the program makes."""
+    return {name: run(dotek, "help", name) for name in ("commands", "controls", "cycles-library")}
 
 
 def title_of(text, name):

@@ -96,12 +96,50 @@ TEST_CASE("manual: the examples of each command run, and its page is there") {
     REQUIRE_MESSAGE(more != std::string::npos, command);
     const std::string topic = help.substr(more + 19, help.find('`', more + 19) - more - 19);
     CHECK_MESSAGE(!dotek::cli::helpOn(topic).empty(), command << ": " << topic);
+    CHECK_MESSAGE(help.find("(docs/", more) != std::string::npos, command);
     const std::size_t examples = help.find("\nExamples:\n");
-    if (examples == std::string::npos) continue;
+    REQUIRE_MESSAGE(examples != std::string::npos, command);
+    if (command == "lsp") continue; // an editor that starts it: LspEditors.test.cpp runs one
     const ShellResult result = folder.run("set -e\n" + help.substr(examples + 11, more - examples - 11));
     CHECK_MESSAGE(result.status == 0, command << ": " << result.err);
   }
   CHECK(commands > 15);
+}
+
+TEST_CASE("manual: dotek help prints every page of docs/, and those that the program makes") {
+  int pages = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(root() / "docs")) {
+    const std::string extension = entry.path().extension().string();
+    if (extension != ".md" && extension != ".json") continue;
+    ++pages;
+    fs::path name = fs::relative(entry.path(), root() / "docs");
+    CHECK_MESSAGE(dotek::cli::helpOn(name.generic_string()) == readAll(entry.path()), name.string());
+    if (extension == ".md")
+      CHECK(dotek::cli::helpOn(name.replace_extension().generic_string()) == readAll(entry.path()));
+  }
+  CHECK(pages > 300);
+  CHECK(runDotek({"help", "rules"}, root()).out == readAll(root() / "docs" / "rules" / "README.md"));
+  const std::string messages = runDotek({"help", "messages"}, root()).out;
+  for (const auto& entry : fs::directory_iterator(root() / "docs" / "messages"))
+    CHECK_MESSAGE(messages.find(" messages/" + entry.path().stem().string() + " ") != std::string::npos,
+                  entry.path().string());
+  const auto indented = [](const std::string& text) {
+    std::string out;
+    for (const std::string& line : linesOfText(text))
+      out += line.empty() ? "\n" : "    " + line + "\n";
+    return out;
+  };
+  const std::string commands = runDotek({"help", "commands"}, root()).out;
+  CHECK(commands.starts_with("# Commands\n\n" + indented(runDotek({"--help"}, root()).out)));
+  for (const char* command : {"lint", "flatten", "help"})
+    CHECK_MESSAGE(commands.find("\n## " + std::string(command) + "\n\n" +
+                                indented(runDotek({command, "--help"}, root()).out)) != std::string::npos,
+                  command);
+  const std::string controls = runDotek({"help", "controls"}, root()).out;
+  CHECK(controls.find(indented(runDotek({"list", "controls", "fanuc-31i-b"}, root()).out)) !=
+        std::string::npos);
+  CHECK(runDotek({"help", "cycles-library"}, root()).out ==
+        "# Cycles of the library\n\n" + runDotek({"doc"}, root()).out);
 }
 
 TEST_CASE("manual: dotek help prints a page, the section of a command, or the list") {
@@ -113,11 +151,23 @@ TEST_CASE("manual: dotek help prints a page, the section of a command, or the li
   CHECK(runDotek({"help", "list"}, root()).out.starts_with("## explain, list\n"));
   const CommandResult list = runDotek({"help"}, root());
   CHECK(list.status == 0);
+  CHECK(list.out.starts_with(runDotek({"--help"}, root()).out));
   for (const dotek::cli::HelpPage& page : dotek::cli::helpPages())
-    CHECK_MESSAGE(list.out.find("\n  " + std::string(page.name.substr(0, page.name.size() - 3)) + " ") !=
+    CHECK_MESSAGE(list.out.find("\n  " + std::string(page.name.substr(0, page.name.find(".md"))) + " ") !=
                       std::string::npos,
                   page.name);
   const CommandResult misspelt = runDotek({"help", "cycels"}, root());
   CHECK(misspelt.status == 2);
   CHECK(misspelt.err.find("did you mean `cycles`?") != std::string::npos);
+}
+
+TEST_CASE("manual: a cell of the table beside other tools that says no says why") {
+  int cells = 0;
+  for (const std::string& line : linesOfText(readAll(root() / "docs" / "peers.md"))) {
+    if (!line.starts_with("| ") || line.starts_with("| |")) continue;
+    std::istringstream row(line.substr(1));
+    for (std::string cell; std::getline(row, cell, '|'); ++cells)
+      CHECK_MESSAGE((cell != " no " && cell.find_first_not_of(' ') != std::string::npos), line);
+  }
+  CHECK(cells > 100);
 }
