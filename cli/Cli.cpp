@@ -5,6 +5,7 @@
 #include "cli/Documents.h"
 #include "cli/Files.h"
 #include "cli/Findings.h"
+#include "cli/Progress.h"
 #include "cli/StandardInput.h"
 #include "cli/Watch.h"
 #include "driver/Driver.h"
@@ -169,7 +170,12 @@ public:
       };
     driver::Outcome outcome;
     if (writing.empty())
-      outcome = driver::sim(options, arguments.device);
+      // A trace on the terminal shows that it runs.
+      outcome = [&] {
+        const Progress progress("sim", !arguments.quiet && (!options.trace || isatty(STDOUT_FILENO) != 1 ||
+                                                            !arguments.traceFile.empty()));
+        return driver::sim(options, arguments.device);
+      }();
     else if (options.json)
       outcome.output = sim::notRunSummary(writing, SourceMap());
     for (Diagnostic& one : outcome.diagnostics.all()) {
@@ -200,14 +206,9 @@ public:
     return placed ? outcome.status : kUsage;
   }
 
-  // The report counts also where something differs; a terminal sees how far the run is.
-  int verification(driver::VerifyOptions& options, const Arguments& arguments) {
-    if (!arguments.quiet && isatty(STDERR_FILENO) == 1) {
-      options.progress = [&](std::uint64_t done, std::uint64_t all) {
-        err_ << "\r" << done << " of " << all << " cases" << (done == all ? "\r\x1b[K" : "") << std::flush;
-      };
-    }
-    const driver::Outcome outcome = driver::verify(options);
+  // The report counts also where something differs.
+  int verification(const driver::Outcome& outcome, const Arguments& arguments) {
+    const driver::VerifyOptions& options = arguments.verify;
     err_ << renderText(outcome.diagnostics, outcome.sources, maxErrors_, errColors_);
     if (outcome.status == kUsage) return kUsage;
     // Nothing ran: an old report stays what it is, and so does a file of the source that nobody has read.
@@ -330,6 +331,24 @@ void takeDefaultsOfProject(Arguments& arguments) {
     arguments.source.prog = project::flagDefaultsOf(arguments.inputs).prog;
 }
 
+// What may take longer than a second, with a line on the terminal meanwhile.
+template <class Work> driver::Outcome shown(const Arguments& arguments, Work work) {
+  Progress progress(commandName(arguments.command), !arguments.quiet);
+  return work(progress);
+}
+
+// The same of a command that says how far it is.
+template <class Options>
+driver::Outcome shown(const Arguments& arguments, Options& options,
+                      driver::Outcome (*work)(const Options& options)) {
+  return shown(arguments, [&](Progress& progress) {
+    options.progress = [&](const std::string& text) { progress.say(text); };
+    driver::Outcome outcome = work(options);
+    options.progress = nullptr;
+    return outcome;
+  });
+}
+
 int runCommand(Arguments& arguments, std::ostream& out, std::ostream& err) {
   Printer printer(out, err, arguments);
   if (!printer.canRead(arguments)) return kUsage;
@@ -338,10 +357,16 @@ int runCommand(Arguments& arguments, std::ostream& out, std::ostream& err) {
   switch (arguments.command) {
   case Command::Post:
     return printer.result(
-        driver::post({arguments.inputs, arguments.common, arguments.source, arguments.sequence}), arguments);
+        shown(
+            arguments,
+            [&](Progress&) {
+              return driver::post({arguments.inputs, arguments.common, arguments.source, arguments.sequence});
+            }),
+        arguments);
   case Command::RunPost:
     arguments.runPost.common = arguments.common;
-    return printer.posted(driver::runPost(arguments.runPost), arguments);
+    return printer.posted(shown(arguments, [&](Progress&) { return driver::runPost(arguments.runPost); }),
+                          arguments);
   case Command::NewJob:
     arguments.runPost.common = arguments.common;
     return printer.result(driver::newJob(arguments.runPost), arguments);
@@ -351,19 +376,19 @@ int runCommand(Arguments& arguments, std::ostream& out, std::ostream& err) {
     options.common = arguments.common;
     options.source = arguments.source;
     options.oneFile = !arguments.output.empty();
-    return printer.programs(driver::convert(options), arguments);
+    return printer.programs(shown(arguments, options, driver::convert), arguments);
   }
   case Command::Lint: {
     driver::LintOptions& options = arguments.lint;
     options.paths = arguments.inputs;
     options.common = arguments.common;
     options.source = arguments.source;
-    if (arguments.diff) return printer.proposals(driver::proposeFixes(options), arguments);
+    if (arguments.diff) return printer.proposals(shown(arguments, options, driver::proposeFixes), arguments);
     if (arguments.watch)
       return watch(
           options.paths,
           [&](int& status) {
-            const driver::Outcome outcome = driver::lint(options);
+            const driver::Outcome outcome = shown(arguments, options, driver::lint);
             status = printer.findings(outcome, arguments);
             std::set<std::string> read;
             for (FileId file = 0; file < outcome.sources.size(); ++file)
@@ -371,7 +396,7 @@ int runCommand(Arguments& arguments, std::ostream& out, std::ostream& err) {
             return read;
           },
           out, err);
-    return printer.findings(driver::lint(options), arguments);
+    return printer.findings(shown(arguments, options, driver::lint), arguments);
   }
   case Command::Dump:
     return printer.result(driver::dump({arguments.inputs, arguments.stage, arguments.common, arguments.source,
@@ -385,7 +410,7 @@ int runCommand(Arguments& arguments, std::ostream& out, std::ostream& err) {
     arguments.verify.inputs = arguments.inputs;
     arguments.verify.common = arguments.common;
     arguments.verify.source = arguments.source;
-    return printer.verification(arguments.verify, arguments);
+    return printer.verification(shown(arguments, arguments.verify, driver::verify), arguments);
   case Command::Explain: return printer.result(driver::explain(arguments.inputs.front()), arguments);
   case Command::New:
     if (!arguments.convert.fromControl.empty())
@@ -403,8 +428,17 @@ int runCommand(Arguments& arguments, std::ostream& out, std::ostream& err) {
   case Command::NewMacros:
     return printer.result(driver::newMacros(arguments.inputs.back(), arguments.common), arguments);
   case Command::Check:
-    return printer.findings(driver::check({arguments.inputs, arguments.common}), arguments);
-  case Command::Fmt: return printer.layout(driver::layOut({arguments.inputs, arguments.common}), arguments);
+    return printer.findings(shown(arguments,
+                                  [&](Progress&) {
+                                    return driver::check({arguments.inputs, arguments.common});
+                                  }),
+                            arguments);
+  case Command::Fmt:
+    return printer.layout(shown(arguments,
+                                [&](Progress&) {
+                                  return driver::layOut({arguments.inputs, arguments.common});
+                                }),
+                          arguments);
   case Command::Doc:
     return printer.catalogue(driver::catalogue({arguments.inputs, arguments.common}), arguments);
   case Command::Preview:
@@ -425,7 +459,8 @@ int runCommand(Arguments& arguments, std::ostream& out, std::ostream& err) {
   case Command::Flatten:
     arguments.sim.program = arguments.inputs.empty() ? "" : arguments.inputs.front();
     arguments.sim.common = arguments.common;
-    return printer.result(driver::flatten(arguments.sim), arguments);
+    return printer.result(shown(arguments, [&](Progress&) { return driver::flatten(arguments.sim); }),
+                          arguments);
   }
   return kDefect;
 }

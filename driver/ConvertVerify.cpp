@@ -146,6 +146,10 @@ Outcome verified(const ConvertOptions& options, Outcome outcome) {
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     const std::string& input = inputs[i];
     VerifyOptions one = optionsOf(options, input);
+    if (options.progress && inputs.size() > 1)
+      one.progress = [&, i](const std::string& text) {
+        options.progress(fmt::format("input {} of {}, {}", i + 1, inputs.size(), text));
+      };
     const bool program = isProgram(input);
     dropOthers(one, program);
     if (own) one.converted = resultOf(outcome, i, program ? outcome.arguments.size() : cycles, said);

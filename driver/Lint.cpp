@@ -90,8 +90,11 @@ public:
     const std::deque<lint::Project>& projects = projects_.gather(*inputs_, sufReadings_, checked_, posts_);
     if (changed_) together_.emplace(projects, *changed_, [this](FileId file) { return isChanged(file); });
     const auto run = [&](const auto& wanted) {
-      for (const lint::Project& project : projects)
+      std::size_t done = 0;
+      for (const lint::Project& project : projects) {
+        say("{} files read, rules on part {} of {}", checkedFiles_, ++done, projects.size());
         lint::runRules(project, session_.diagnostics(), wanted);
+      }
     };
     // Shared rules all run, since one that nobody asked for may tell why another finding begins at its place.
     run([](const lint::NamedRule& rule) { return rule.rule->shared; });
@@ -129,6 +132,10 @@ public:
   }
 
 private:
+  template <class... Values> void say(fmt::format_string<Values...> text, Values&&... values) const {
+    if (options_.progress) options_.progress(fmt::format(text, std::forward<Values>(values)...));
+  }
+
   // false: it cannot be read; reported.
   bool passOverBaseline() {
     if (!options_.baseline) return true;
@@ -284,6 +291,7 @@ private:
   }
 
   void file(const std::string& path, bool named) {
+    say("{} files read", checkedFiles_);
     if (!named && configs_.of(path)->exclude) {
       ++excluded_;
       return;

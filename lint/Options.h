@@ -4,6 +4,7 @@
 #include "project/Options.h"
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <set>
 #include <string>
@@ -33,6 +34,8 @@ struct LintOptions {
   std::optional<std::string> baseline;
   // The file that the result is written to, which has such a list of what is found; lint does not fail then.
   std::optional<std::string> writeBaseline;
+  // Told from time to time how far it is.
+  std::function<void(const std::string& text)> progress;
 };
 
 } // namespace dotek::lint

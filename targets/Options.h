@@ -33,6 +33,8 @@ struct TranslationOptions {
   std::optional<std::string> probeMacros; // nothing: the set that the source calls
   std::string datum;                      // --datum of mikroprog: "", "g92" or "operator"
   NamedTexts results;                     // --result NAME=#NUMBER, of files of the cycle language
+  // Told from time to time how many cases are done; from one thread at a time.
+  std::function<void(const std::string& text)> progress;
 };
 
 // Of verify and of convert --verify. Text: the line of the verdict. The others: a document beside it.
@@ -98,8 +100,6 @@ struct VerifyOptions : TranslationOptions {
   std::string date;    // that the document bears; "": none
   std::string remark;  // the same: a line below its title
   bool replay = false; // one case, all of whose values are given: nothing is made smaller
-  // Told from time to time how many of how many cases are done; from one thread at a time.
-  std::function<void(std::uint64_t done, std::uint64_t all)> progress;
   // Given each case by its number, edge cases after the others: whether it agrees, and what the
   // translation did, as `sim` traces it (docs/sim.md). Before it is a line `start X Y Z`, after it the
   // zeros of the work systems and the variables that the source stores. In any order, from one thread at a

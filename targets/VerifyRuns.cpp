@@ -106,7 +106,7 @@ bool runCases(const VerifyOptions& options, bool edges, CaseSubject& main,
       if (options.traces) options.traces(n, result.verdict == CaseVerdict::Agrees, result.trace);
       report.add(edge ? kEdges + n : n, edge, std::move(*drawn), std::move(result));
       const std::uint64_t finished = ++done;
-      if (options.progress && (finished % 64 == 0 || finished == all)) options.progress(finished, all);
+      if (options.progress) options.progress(fmt::format("{} of {} cases", finished, all));
       if (n == 0) return;
     }
   };
