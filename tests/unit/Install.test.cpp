@@ -1,4 +1,5 @@
 // What is installed beside the program: manual, completions, licences; and the Debian package.
+#include "support/Version.h"
 #include "tests/GoldenRunner.h"
 #include "tests/Process.h"
 #include "tests/Skips.h"
@@ -45,6 +46,20 @@ TEST_CASE("install: each command has a manual page, made twice alike") {
   const std::string lint = folder.run("gzip -dc one/man/man1/dotek-lint.1.gz").out;
   CHECK(lint.find("\\fB\\-\\-baseline\\fR") != std::string::npos);
   CHECK(lint.find("2023-11-14") != std::string::npos);
+}
+
+TEST_CASE("install: the version is the same wherever it is written") {
+  const std::string version(dotek::kVersion);
+  const std::string member = "\n  \"version\": \"" + version + "\",\n";
+  CHECK(readAll(root() / "editors" / "vscode" / "package.json").find(member) != std::string::npos);
+  const std::string lock = readAll(root() / "editors" / "vscode" / "package-lock.json");
+  CHECK(lock.find(member) != std::string::npos);
+  CHECK(lock.find("\n      \"name\": \"dotek\",\n      \"version\": \"" + version + "\",\n") !=
+        std::string::npos);
+  // The newest changes are of it.
+  const std::string changes = readAll(root() / "CHANGELOG.md");
+  CHECK(changes.substr(changes.find("\n## ") + 1).starts_with("## " + version));
+  CHECK(runDotek({"--version"}, root()).out.starts_with("dotek " + version + " "));
 }
 
 TEST_CASE("install: the completions know commands, flags and values") {
