@@ -2,6 +2,7 @@
 //   bench_processes --dotek PROGRAM [--corpus DIR] [--runs N] [--check]
 // Run from the root of the repository. --check exits with 1 where a figure is above its bound.
 #include "bench/Process.h"
+#include "bench/Server.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -59,6 +60,27 @@ void writeMacro(const fs::path& path, int lines) {
         << "if depth" << line << " > 10 then a = a + 1\n"
         << "for k = 1 to 3\nnext k\n";
   }
+}
+
+// Programs of the examples over and over, each with a number of its own.
+void writeMacros(const fs::path& path, int lines) {
+  std::vector<std::string> programs;
+  for (const char* name : {"angle", "bore", "calibrate", "face-z", "tool-break", "web"}) {
+    std::ifstream in(fmt::format("examples/macros/{}.nc", name));
+    std::string text, line;
+    while (std::getline(in, line))
+      if (!line.starts_with("%") && !line.starts_with("O")) text += line + "\n";
+    programs.push_back(text);
+  }
+  std::ofstream out(path);
+  out << "%\n";
+  int number = 1000;
+  for (int written = 2; written < lines; ++number) {
+    const std::string& text = programs[static_cast<std::size_t>(number) % programs.size()];
+    out << "O" << number << "(COPY)\n" << text;
+    written += 1 + static_cast<int>(std::count(text.begin(), text.end(), '\n'));
+  }
+  out << "%\n";
 }
 
 std::vector<fs::path> sortedEntries(const fs::path& folder) {
@@ -164,6 +186,11 @@ std::vector<Case> cases(const std::string& dotek, const std::string& corpus, con
       {"lint, Prog of 4,000 lines", {dotek, "lint", (scratch / "long-post.txt").string()}, {0, 1}, 60, {}});
   out.push_back(
       {"lint, macro of 4,000 lines", {dotek, "lint", (scratch / "long.mac").string()}, {0, 1}, {}, {}});
+  writeMacros(scratch / "macros.nc", 5000);
+  writeRows(scratch / "blocks.nc", 5000);
+  for (const auto& [name, file] : {std::pair{"lint, macro programs of 5,000 lines", "macros.nc"},
+                                   std::pair{"lint, one program of 5,000 blocks", "blocks.nc"}})
+    out.push_back({name, {dotek, "lint", (scratch / file).string()}, {0, 1}, 50, {}});
   addPictures(out, dotek, scratch);
   return out;
 }
@@ -200,12 +227,11 @@ int main(int argc, char** argv) {
   fmt::print("| /bin/true | {:.2f} | 1.0 | {:.1f} | |\n", base.median, base.megabytes);
   bool missed = false;
   bool broken = false;
-  for (const Case& one : cases(dotek, corpus, scratch)) {
-    const Figures figures = measure(one.command, runs);
+  const auto row = [&](const Case& one, const Figures& figures) {
     if (std::find(one.statuses.begin(), one.statuses.end(), figures.status) == one.statuses.end()) {
       fmt::print("| {} | exit status {}: not measured | | | |\n", one.name, figures.status);
       broken = true;
-      continue;
+      return;
     }
     std::string bound;
     if (one.mostMilliseconds) bound += fmt::format("{} ms", *one.mostMilliseconds);
@@ -213,8 +239,15 @@ int main(int argc, char** argv) {
     const bool over = (one.mostMilliseconds && figures.median > *one.mostMilliseconds) ||
                       (one.mostMegabytes && figures.megabytes > *one.mostMegabytes);
     missed = missed || over;
-    fmt::print("| {} | {:.2f} | {:.1f} | {:.1f} | {}{} |\n", one.name, figures.median,
-               figures.median / base.median, figures.megabytes, bound, over ? " MISSED" : "");
-  }
+    const std::string megabytes = figures.megabytes > 0 ? fmt::format("{:.1f}", figures.megabytes) : "";
+    fmt::print("| {} | {:.2f} | {:.1f} | {} | {}{} |\n", one.name, figures.median,
+               figures.median / base.median, megabytes, bound, over ? " MISSED" : "");
+  };
+  for (const Case& one : cases(dotek, corpus, scratch))
+    row(one, measure(one.command, runs));
+  row({"lsp, cycle folder: from a change to its findings", {}, {0}, 10, {}},
+      measureChanges(dotek, "examples/surface-x/ToolPath.mac", "dotek-gibbs", runs));
+  row({"lsp, macro programs of 5,000 lines: the same", {}, {0}, {}, {}},
+      measureChanges(dotek, (scratch / "macros.nc").string(), "dotek-macrob", runs));
   return broken || (check && missed) ? 1 : 0;
 }
