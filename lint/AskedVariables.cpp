@@ -105,18 +105,24 @@ Askers::Askers(const Project& project) {
   for (std::size_t i = 0; i < all.size(); ++i) {
     group_.emplace(all[i], top(i));
     for (const std::uint32_t number : askedIn(*all[i])) {
-      asked_[number].insert(top(i));
-      if (open_.contains(top(i))) anywhere_.insert(number);
+      Asked& asked = asked_[number];
+      asked.all.add(*all[i]);
+      asked.byGroup[top(i)].add(*all[i]);
+      if (open_.contains(top(i))) asked.anywhere.add(*all[i]);
     }
   }
 }
 
-bool Askers::ask(const ir::Program& program, std::uint32_t variable) const {
-  if (anywhere_.contains(variable)) return true;
+bool Askers::othersAsk(const ir::Program& program, std::uint32_t variable) const {
+  const auto found = asked_.find(variable);
+  if (found == asked_.end()) return false;
+  const Asked& asked = found->second;
+  if (asked.anywhere.hasOther(program)) return true;
   const auto group = group_.find(&program);
-  const auto asked = asked_.find(variable);
-  if (group == group_.end() || asked == asked_.end()) return false;
-  return open_.contains(group->second) || asked->second.contains(group->second);
+  if (group == group_.end()) return false;
+  if (open_.contains(group->second)) return asked.all.hasOther(program);
+  const auto here = asked.byGroup.find(group->second);
+  return here != asked.byGroup.end() && here->second.hasOther(program);
 }
 
 } // namespace dotek::lint

@@ -18,14 +18,31 @@ std::set<std::uint32_t> askedIn(const ir::Program& program);
 class Askers {
 public:
   explicit Askers(const Project& project);
-  // `program`, one that it calls, or one that is called with it asks for the variable.
-  bool ask(const ir::Program& program, std::uint32_t variable) const;
+  // A program that `program` calls, that calls it, or that is called with it asks for the variable.
+  bool othersAsk(const ir::Program& program, std::uint32_t variable) const;
 
 private:
+  // Programs, as far as it matters whether there is another than a given one.
+  struct Some {
+    const ir::Program* first = nullptr;
+    bool more = false;
+
+    void add(const ir::Program& program) {
+      more = more || (first != nullptr && first != &program);
+      if (first == nullptr) first = &program;
+    }
+    bool hasOther(const ir::Program& program) const {
+      return more || (first != nullptr && first != &program);
+    }
+  };
+  struct Asked {
+    Some all;
+    Some anywhere; // in groups that are open
+    std::map<std::size_t, Some> byGroup;
+  };
   std::map<const ir::Program*, std::size_t> group_; // joined by calls
-  std::map<std::uint32_t, std::set<std::size_t>> asked_;
-  std::set<std::size_t> open_;       // groups with a call that may lead to any program
-  std::set<std::uint32_t> anywhere_; // asked for in those
+  std::set<std::size_t> open_;                      // groups with a call that may lead to any program
+  std::map<std::uint32_t, Asked> asked_;
 };
 const Askers& askersOf(const Project& project);
 

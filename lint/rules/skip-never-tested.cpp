@@ -2,6 +2,7 @@
 #include "ir/Walk.h"
 #include "lint/AfterSkip.h"
 #include "lint/AskedVariables.h"
+#include "lint/ContactUse.h"
 
 #include <algorithm>
 #include <set>
@@ -9,6 +10,7 @@
 namespace dotek::lint::rule {
 namespace {
 
+constexpr std::size_t kMostSteps = 200'000; // of all the walks of a program
 constexpr std::uint32_t kFirstCommon = 100;
 constexpr std::uint32_t kFirstSystem = 1000;
 
@@ -87,9 +89,21 @@ std::set<std::uint32_t> heldIn(const ir::Program& program, std::set<std::uint32_
   return held;
 }
 
+// The condition before `skip` that looks at the variable, with the value of another G31.
+std::optional<SourceRange> lastAskBefore(const NcProgram& nc, std::size_t skip, std::uint32_t number) {
+  for (std::size_t at = skip; at-- > 0;) {
+    const ir::ConditionPtr* condition = ir::conditionOf(nc.program.body[at]);
+    if (condition == nullptr || !*condition) continue;
+    for (const VariableRead& read : nc.reads(at))
+      if (read.number == number) return nc.program.body[at].origin.range();
+  }
+  return std::nullopt;
+}
+
 void check(const NcProgram& nc, Report& report) {
   const auto& body = nc.program.body;
   std::optional<std::set<std::uint32_t>> asked;
+  std::size_t steps = kMostSteps;
   for (std::size_t i = 0; i < body.size(); ++i) {
     const ir::NcBlock* skip = skipOf(body[i]);
     if (skip == nullptr || mayAskControl(body[i]) || report.full(body[i].origin.range().file)) continue;
@@ -108,21 +122,28 @@ void check(const NcProgram& nc, Report& report) {
     }
     if (const auto zero = zeroSetThere(nc, *after, i, axesOf(*skip)); zero && !taken) taken = zero;
     if (!taken) continue;
+    const auto use = contactUse(nc, i, steps);
+    if (use && use->asked) continue;
     if (!asked) asked = askedIn(nc.program);
-    const std::set<std::uint32_t> all = heldIn(nc.program, std::move(held));
+    const std::set<std::uint32_t> all = use ? use->held : heldIn(nc.program, std::move(held));
+    const auto askedOf =
+        std::find_if(all.begin(), all.end(), [&](std::uint32_t number) { return asked->contains(number); });
+    if (askedOf != all.end() && (!use || use->leadsOn)) continue;
     // A result that a caller looks at is asked for there.
     if (std::any_of(all.begin(), all.end(), [&](std::uint32_t number) {
-          return asked->contains(number) ||
-                 (number >= kFirstCommon && askersOf(nc.project).ask(nc.program, number));
+          return number >= kFirstCommon && askersOf(nc.project).othersAsk(nc.program, number);
         }))
       continue;
-    report
-        .at(body[i].origin.range(),
-            "nothing asks whether this G31 touched; where it meets nothing, #{0} is the end of the move, and "
-            "the control goes on without an alarm with a result that is wrong; compare #{0} with the target "
-            "after it, and end in an alarm where they are equal",
-            taken->number)
-        .note(taken->range, "it is taken for the contact here");
+    Diagnostic& finding = report.at(
+        body[i].origin.range(),
+        "nothing asks whether this G31 touched; where it meets nothing, #{0} is the end of the move, and "
+        "the control goes on without an alarm with a result that is wrong; compare #{0} with the target "
+        "after it, and end in an alarm where they are equal",
+        taken->number);
+    finding.note(taken->range, "it is taken for the contact here");
+    if (askedOf == all.end()) continue;
+    if (const auto where = lastAskBefore(nc, i, *askedOf))
+      finding.note(*where, fmt::format("#{} is asked about here, before this G31 moves", *askedOf));
   }
 }
 
