@@ -148,6 +148,7 @@ bool SimWorld::loadFiles(const Setup& given) {
   if (part) partZero_ = {part->nominal.shift.x, part->nominal.shift.y, part->nominal.shift.z};
   world_.emplace(part ? part->part : Part(), machine_->probe, machine_->limits);
   world_->setDevices(machine_->devices);
+  if (part) clearance_.emplace(nearDistance(part->part));
   return true;
 }
 
@@ -322,6 +323,7 @@ void SimWorld::moved(const MachineMotion& motion) {
     recorder_->moved(shifted(motion));
   else if (world_)
     world_->moved(shifted(motion));
+  followClearance(motion);
   missEnded(motion);
   checkLength(motion);
   checkHeight(motion);
@@ -492,6 +494,7 @@ void SimWorld::addTold(Diagnostic diagnostic, std::size_t kind, const RunPlace& 
 void SimWorld::finishPicture() {
   settleMiss();
   tellUnseen();
+  tellFar();
   log_.finish();
   if (!recorder_) return;
   addWarnings();

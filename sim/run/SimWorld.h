@@ -10,6 +10,7 @@
 #include "sim/machine/SystemWatcher.h"
 #include "sim/machine/World.h"
 #include "sim/picture/PictureRecorder.h"
+#include "sim/run/Clearance.h"
 #include "sim/run/MeasuredLog.h"
 #include "sim/run/Options.h"
 #include "support/OutputFile.h"
@@ -17,6 +18,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -229,6 +231,8 @@ private:
   // SimTouch.cpp: touches that measure something else than the program takes them for.
   void checkEdge(const ProbeEvent& event, const RunPlace& place);
   void checkWear(const OffsetWrite& write);
+  void followClearance(const MachineMotion& motion);
+  void tellFar(); // at the end of the run
   void addTold(Diagnostic diagnostic, std::size_t kind, const RunPlace& place);
   bool isTold(const ProbeEvent& event) const; // false: it is one too many
   bool isInProtectedCall() const { return !protected_.empty() && protected_.back(); }
@@ -312,6 +316,15 @@ private:
   std::vector<NotedRecord> records_; // of files, and stops: at most kMostKept
   std::vector<std::string> stops_;
   std::uint64_t contactCount_ = 0, eventCount_ = 0;
+  struct Nearest {
+    double distance = std::numeric_limits<double>::infinity();
+    SourceRange range; // of the block that comes nearest, or almost
+    std::string system;
+    std::optional<std::uint32_t> unset; // as of systemNow_
+  };
+  std::optional<Clearance> clearance_; // where a part is given, and each motion is known
+  Nearest nearest_;
+  bool works_ = false;                       // a feed or a skip move was made
   std::array<std::uint64_t, 16> outcomes_{}; // without misses that were meant
   std::array<Told, 16> told_{};              // by outcome
   // By outcome and place: a loop meets the same at the same block each time.
