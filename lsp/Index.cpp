@@ -48,6 +48,7 @@ Index makeIndex(const std::string& path, const project::CommonOptions& options) 
   const std::optional<FileId> file = session.read(path, encodingOf(*found->kind));
   if (!file) return out;
   out.file = *file;
+  out.encoding = session.sources().file(*file).encoding();
   switch (*found->kind) {
   case project::InputKind::Nc: indexMacroB(out, session, path); break;
   case project::InputKind::Prog: indexComPost(out, session); break;

@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace dotek::project {
@@ -66,6 +67,7 @@ struct Index {
   std::optional<project::InputKind> kind;
   SourceMap sources;
   FileId file = kNoFile; // kNoFile: it cannot be read
+  Encoding encoding = Encoding::Utf8;
   std::vector<Occurrence> occurrences;
   std::vector<Symbol> symbols;
   std::vector<Fact> facts;
@@ -77,6 +79,7 @@ struct Index {
 
   const SourceFile& text() const { return sources.file(file); }
   const Occurrence* at(std::uint32_t offset) const; // nullptr: no name is there
+  std::string utf8(std::string_view bytes) const { return toUtf8(bytes, encoding); } // of this text
 };
 
 // Reads the file, or what the editor holds of it. Never fails: of what cannot be read nothing is listed.

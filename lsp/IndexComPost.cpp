@@ -78,7 +78,7 @@ private:
       const SourceRange inside{argument.range.file, argument.range.begin + 1,
                                argument.range.end > argument.range.begin + 1 ? argument.range.end - 1
                                                                              : argument.range.end};
-      const std::string text = toUtf8(argument.text, Encoding::Cp1250);
+      const std::string text = index_.utf8(argument.text);
       const std::string kind = word.name == "OpFieldData" ? "field"
                                : word.name == "CycleType" ? "cycle"
                                                           : "flag " + word.name;

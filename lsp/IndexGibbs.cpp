@@ -23,7 +23,7 @@ public:
       if (line.label) {
         const gibbs::Name& name = line.label->name;
         label(name, Role::Definition);
-        index_.symbols.push_back({name.text, "", SymbolKind::Key, name.range, name.range, {}});
+        index_.symbols.push_back({index_.utf8(name.text), "", SymbolKind::Key, name.range, name.range, {}});
       }
     }
     gibbs::walkLines(macro.lines, [&](const gibbs::Statement& statement) { this->statement(statement); });
@@ -31,18 +31,22 @@ public:
 
   void dialog(const gibbs::Dialog& dialog) {
     for (const gibbs::Control& control : dialog.controls) {
-      const std::string title = control.text ? toUtf8(*control.text, Encoding::Cp1250) : "";
+      const std::string title = control.text ? index_.utf8(*control.text) : "";
       if (control.variable) {
         add(*control.variable, Role::Write);
-        index_.symbols.push_back({control.variable->text,
-                                  control.kind.text,
+        index_.symbols.push_back({index_.utf8(control.variable->text),
+                                  index_.utf8(control.kind.text),
                                   SymbolKind::Field,
                                   control.range,
                                   control.variable->range,
                                   {}});
       } else if (!title.empty()) {
-        index_.symbols.push_back(
-            {title, control.kind.text, SymbolKind::Variable, control.range, control.kind.range, {}});
+        index_.symbols.push_back({title,
+                                  index_.utf8(control.kind.text),
+                                  SymbolKind::Variable,
+                                  control.range,
+                                  control.kind.range,
+                                  {}});
       }
       for (const gibbs::ExpressionPtr& argument : control.arguments)
         if (argument != nullptr)
@@ -53,7 +57,7 @@ public:
   void definitions(const gibbs::DefineData& data) {
     for (const gibbs::Definition& one : data.definitions) {
       add(one.name, Role::Definition);
-      index_.symbols.push_back({one.name.text,
+      index_.symbols.push_back({index_.utf8(one.name.text),
                                 one.number ? fmt::format("= {}", *one.number) : "",
                                 SymbolKind::Field,
                                 one.range,
@@ -117,10 +121,10 @@ private:
     if (const stdlib::CallbackVariable* known = keywords_.callback(name.text))
       index_.facts.push_back({name.range, fmt::format("**{}** set by the CAM{}{}", known->name,
                                                       known->note.empty() ? "" : ": ", known->note)});
-    index_.occurrences.push_back({"field " + gibbs::foldCase(name.text), role, name.range});
+    index_.occurrences.push_back({"field " + index_.utf8(gibbs::foldCase(name.text)), role, name.range});
   }
   void label(const gibbs::Name& name, Role role) {
-    const std::string key = "label " + gibbs::foldCase(name.text);
+    const std::string key = "label " + index_.utf8(gibbs::foldCase(name.text));
     if (role == Role::Definition) index_.renamable.push_back(key);
     index_.occurrences.push_back({key, role, name.range});
   }

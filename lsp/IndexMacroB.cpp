@@ -46,13 +46,13 @@ private:
     symbol.kind = SymbolKind::Module;
     if (program.name) {
       const std::string text = program.name->kind == macrob::ProgramName::Kind::Name
-                                   ? "<" + program.name->text + ">"
+                                   ? "<" + index_.utf8(program.name->text) + ">"
                                    : fmt::format("O{}", program.name->number);
       symbol.name = text;
       symbol.nameRange = program.name->range;
       add(programKey(program.name->number, program.name->text), Role::Definition, program.name->range);
     }
-    if (!program.comments.empty()) symbol.detail = toUtf8(program.comments.front().text, Encoding::Cp1250);
+    if (!program.comments.empty()) symbol.detail = index_.utf8(program.comments.front().text);
     symbol.range = symbol.nameRange;
     if (!program.blocks.empty()) {
       symbol.range = program.name ? spanning(program.name->range, program.blocks.back().range)
@@ -72,7 +72,7 @@ private:
       one.kind = SymbolKind::Key;
       one.range = block.range;
       one.nameRange = block.sequenceNumber->range;
-      if (!block.comments.empty()) one.detail = toUtf8(block.comments.front().text, Encoding::Cp1250);
+      if (!block.comments.empty()) one.detail = index_.utf8(block.comments.front().text);
       symbol.children.push_back(std::move(one));
     }
     if (const macrob::Goto* jump = macrob::gotoOf(block)) {

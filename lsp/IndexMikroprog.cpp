@@ -40,7 +40,7 @@ void indexMikroprog(Index& index, project::Session& session, const std::string& 
       index.occurrences.push_back({fmt::format("N {}", *line.number), Role::Definition, line.numberRange});
       if (line.comment)
         index.symbols.push_back({fmt::format("N{}", *line.number),
-                                 toUtf8(*line.comment, Encoding::Cp852),
+                                 index.utf8(*line.comment),
                                  SymbolKind::Key,
                                  line.range,
                                  line.numberRange,

@@ -4,6 +4,7 @@
 #include "lsp/Serve.h"
 #include "lsp/Server.h"
 #include "tests/Draws.h"
+#include "tests/LspClient.h"
 #include "tests/TestFolder.h"
 
 #include <doctest/doctest.h>
@@ -14,69 +15,10 @@
 
 using namespace dotek;
 using namespace dotek::lsp;
+using namespace dotek::tests::editor;
 using dotek::tests::TestFolder;
 
 namespace {
-
-class Client {
-public:
-  explicit Client(const Json& capabilities = Json::object()) {
-    result("initialize", {{"capabilities", capabilities}});
-    note("initialized", Json::object());
-  }
-
-  Json ask(const std::string& method, const Json& params) {
-    const std::vector<Json> out = server_.receive(
-        Json{{"jsonrpc", "2.0"}, {"id", ++id_}, {"method", method}, {"params", params}}.dump());
-    REQUIRE(out.size() == 1);
-    CHECK(out.front()["id"] == id_);
-    return out.front();
-  }
-  Json result(const std::string& method, const Json& params) {
-    const Json answer = ask(method, params);
-    REQUIRE_MESSAGE(answer.contains("result"), answer.dump());
-    return answer["result"];
-  }
-  void note(const std::string& method, const Json& params) {
-    CHECK(server_.receive(Json{{"jsonrpc", "2.0"}, {"method", method}, {"params", params}}.dump()).empty());
-  }
-  // Opens a text and gives what is found in it.
-  Json open(const std::string& path, const std::string& text) {
-    note("textDocument/didOpen",
-         {{"textDocument", {{"uri", uriOf(path)}, {"languageId", "nc"}, {"version", 1}, {"text", text}}}});
-    return findings(path);
-  }
-  // Findings of the path that the server sends now.
-  Json findings(const std::string& path) {
-    Json out;
-    for (const Json& message : server_.idle())
-      if (message["params"]["uri"] == uriOf(path)) out = message["params"]["diagnostics"];
-    return out;
-  }
-  Server& server() { return server_; }
-
-private:
-  Server server_{""};
-  int id_ = 0;
-};
-
-Json at(const std::string& path, int line, int character) {
-  return {{"textDocument", {{"uri", uriOf(path)}}}, {"position", {{"line", line}, {"character", character}}}};
-}
-
-Json all(const std::string& path) {
-  return {
-      {"textDocument", {{"uri", uriOf(path)}}},
-      {"context", {{"diagnostics", Json::array()}}},
-      {"range", {{"start", {{"line", 0}, {"character", 0}}}, {"end", {{"line", 999}, {"character", 0}}}}}};
-}
-
-std::vector<std::string> codes(const Json& findings) {
-  std::vector<std::string> out;
-  for (const Json& one : findings)
-    out.push_back(one["code"]);
-  return out;
-}
 
 const std::string kProgram = "%\n"
                              "O7301 (CHECK THE VICE)\n"
