@@ -17,8 +17,6 @@ using project::InputKind;
 
 namespace {
 
-constexpr int kRequestFailed = -32803;
-
 Json editOf(const Workspace& workspace, const std::map<std::string, Json>& edits) {
   Json changes = Json::object();
   for (const auto& [path, list] : edits) {
@@ -156,7 +154,7 @@ struct Asked {
 Asked askedOf(const Workspace& workspace, const Json& arguments) {
   Asked out;
   if (arguments.empty() || !arguments[0].is_string())
-    throw Refusal{-32602, "the command takes the URI of a document"};
+    throw Refusal{kInvalidParams, "the command takes the URI of a document"};
   out.document = workspace.find(arguments[0].get<std::string>());
   if (out.document == nullptr) throw Refusal{kRequestFailed, "the document is not open"};
   out.input = Workspace::unitOf(out.document->path);
@@ -227,7 +225,8 @@ Json preview(Workspace& workspace, const Json& arguments) {
 }
 
 Json explain(Workspace&, const Json& arguments) {
-  if (arguments.empty() || !arguments[0].is_string()) throw Refusal{-32602, "the command takes a code"};
+  if (arguments.empty() || !arguments[0].is_string())
+    throw Refusal{kInvalidParams, "the command takes a code"};
   const driver::Outcome outcome = driver::explain(arguments[0].get<std::string>());
   return shown(outcome, {arguments[0].get<std::string>(), "markdown", outcome.output});
 }
@@ -256,7 +255,7 @@ Json execute(Workspace& workspace, const Json& params) {
   const Json arguments = params.value("arguments", Json::array());
   for (const NamedCommand& one : kCommands)
     if (name == one.name) return one.call(workspace, arguments.is_array() ? arguments : Json::array());
-  throw Refusal{-32602, "no command `" + name + "`"};
+  throw Refusal{kInvalidParams, "no command `" + name + "`"};
 }
 
 Json codeLenses(Workspace& workspace, const Json& params) {

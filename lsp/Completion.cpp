@@ -9,6 +9,7 @@
 #include "support/Ascii.h"
 
 #include <algorithm>
+#include <charconv>
 #include <filesystem>
 #include <fmt/format.h>
 #include <set>
@@ -61,22 +62,49 @@ std::uint32_t calledIn(const std::string& block) {
   return out;
 }
 
-std::vector<Proposal> macroB(const Index& index, const std::string& path, std::string_view before,
-                             project::Session& session) {
+// Numbers that the keys with this beginning end with, in ascending order.
+std::set<std::uint64_t> numbersAfter(const Index& index, const std::string& kind, bool defined) {
+  std::set<std::uint64_t> out;
+  for (const Occurrence& one : index.occurrences) {
+    if (!one.key.starts_with(kind) || (defined && one.role != Occurrence::Role::Definition)) continue;
+    std::uint64_t number = 0;
+    const char* const end = one.key.data() + one.key.size();
+    if (std::from_chars(one.key.data() + kind.size(), end, number).ptr == end) out.insert(number);
+  }
+  return out;
+}
+
+// The block without the digits that are being typed.
+std::string_view stemOf(std::string_view block) {
+  while (!block.empty() && isDigit(block.back()))
+    block.remove_suffix(1);
+  return block;
+}
+
+bool endsWith(std::string_view block, std::string_view word) { // blanks between and after do not count
+  std::string plain;
+  for (const char c : block)
+    if (c != ' ' && c != '\t') plain += c;
+  return plain.ends_with(word);
+}
+
+std::vector<Proposal> macroB(const Index& index, const std::string& path, std::uint32_t offset,
+                             std::string_view before, project::Session& session) {
   std::vector<Proposal> out;
   const std::string block = upperCase(before);
-  if (block.ends_with("GOTO ") || block.ends_with("GOTO")) {
-    for (Proposal& one : named(index, "N ", kValue)) {
-      if (one.label.starts_with('N') || one.label.starts_with('n')) one.label.erase(0, 1);
-      out.push_back(std::move(one));
-    }
+  const std::string_view stem = stemOf(block);
+  const std::size_t program = index.programAt(offset);
+  if (endsWith(stem, "GOTO")) {
+    for (const std::uint64_t number : numbersAfter(index, fmt::format("N {} ", program), true))
+      out.push_back({fmt::format("{}", number), fmt::format("N{}", number), "", kValue});
     return out;
   }
   std::string name = project::settingsOf(path, session).control;
   if (name.empty()) name = project::kDefaultControl;
   const stdlib::Control* const control = session.control(name);
-  const std::string word(lastWord(block));
-  if (control != nullptr && (word == "G" || word == "M")) {
+  const std::string word(lastWord(stem));
+  const std::uint32_t called = calledIn(std::string(stem));
+  if (control != nullptr && called == 0 && (word == "G" || word == "M")) {
     for (const stdlib::CodeInfo& code : control->codes)
       if (code.letter == word.front())
         out.push_back({code.tenths % 10 == 0
@@ -85,7 +113,7 @@ std::vector<Proposal> macroB(const Index& index, const std::string& path, std::s
                        code.title, codeFact(*control, code.letter, code.tenths), kValue});
     return out;
   }
-  if (block.ends_with("G65P") || block.ends_with("G65 P")) {
+  if (endsWith(stem, "G65P")) {
     std::set<std::uint32_t> seen;
     for (const stdlib::MacroSet& set : session.macroSets())
       for (const stdlib::MacroSignature& signature : set.signatures)
@@ -94,10 +122,11 @@ std::vector<Proposal> macroB(const Index& index, const std::string& path, std::s
                          programFact(set, signature.program), kFunction});
     return out;
   }
-  if (const std::uint32_t called = calledIn(block); called != 0) {
+  if (called != 0 && !stem.ends_with('#')) {
     std::set<char> given;
     const std::size_t after = block.find('P', block.find("G65"));
-    for (std::size_t i = after + 1; i < block.size(); ++i)
+    const bool typing = isLetter(block.back()); // the letter may still become another
+    for (std::size_t i = after + 1; i + (typing ? 1 : 0) < block.size(); ++i)
       if (isLetter(block[i])) given.insert(block[i]);
     for (const stdlib::MacroSet& set : session.macroSets())
       for (const stdlib::MacroSignature* signature : set.of(called))
@@ -107,11 +136,13 @@ std::vector<Proposal> macroB(const Index& index, const std::string& path, std::s
                            argumentFact(set, *signature, argument), kField});
     return out;
   }
-  if (block.ends_with('#')) {
-    for (Proposal& one : named(index, "# ", kVariable)) {
-      one.label.erase(0, 1);
-      out.push_back(std::move(one));
-    }
+  if (stem.ends_with('#')) {
+    std::set<std::uint64_t> numbers = numbersAfter(index, fmt::format("# {} ", program), false);
+    numbers.merge(numbersAfter(index, "# ", false));
+    for (const std::uint64_t number : numbers)
+      out.push_back({fmt::format("{}", number), fmt::format("#{}", number),
+                     control != nullptr ? variableFact(*control, static_cast<std::uint32_t>(number)) : "",
+                     kVariable});
     return out;
   }
   keywords(out, {"IF",    "THEN", "GOTO", "WHILE", "DO1",   "END1",  "EQ",    "NE",   "GT",  "GE",
@@ -184,7 +215,7 @@ std::vector<Proposal> proposals(const Index& index, const std::string& path, std
       toUtf8(std::string_view(file.bytes()).substr(start, offset - start), file.encoding());
   project::Session session(options);
   switch (*index.kind) {
-  case project::InputKind::Nc: return macroB(index, path, before, session);
+  case project::InputKind::Nc: return macroB(index, path, offset, before, session);
   case project::InputKind::Prog: return post(index, path, before);
   case project::InputKind::Macro:
   case project::InputKind::Dialog:

@@ -38,6 +38,11 @@ const Occurrence* Index::at(std::uint32_t offset) const {
   return best;
 }
 
+std::size_t Index::programAt(std::uint32_t offset) const {
+  const auto after = std::upper_bound(programs.begin(), programs.end(), offset);
+  return after == programs.begin() ? 0 : static_cast<std::size_t>(after - programs.begin()) - 1;
+}
+
 Index makeIndex(const std::string& path, const project::CommonOptions& options) {
   Index out;
   project::Session session(options);

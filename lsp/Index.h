@@ -75,10 +75,12 @@ struct Index {
   // Names with this beginning keep their meaning where all occurrences of this index are renamed; what is not
   // listed is known elsewhere, too.
   std::vector<std::string> renamable;
-  bool computedJumps = false; // a GOTO whose number is computed
+  std::vector<std::uint32_t> programs; // of Macro B: where each begins
+  bool computedJumps = false;          // a GOTO whose number is computed
 
   const SourceFile& text() const { return sources.file(file); }
   const Occurrence* at(std::uint32_t offset) const; // nullptr: no name is there
+  std::size_t programAt(std::uint32_t offset) const;
   std::string utf8(std::string_view bytes) const { return toUtf8(bytes, encoding); } // of this text
 };
 

@@ -34,6 +34,9 @@ public:
 
   void file(const macrob::File& file) {
     for (const macrob::Program& program : file.programs) {
+      index_.programs.push_back(program.name             ? program.name->range.begin
+                                : program.blocks.empty() ? 0
+                                                         : program.blocks.front().range.begin);
       this->program(program);
       ++number_;
     }

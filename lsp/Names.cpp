@@ -10,8 +10,6 @@ using Role = Occurrence::Role;
 
 namespace {
 
-constexpr int kRequestFailed = -32803;
-
 struct Place {
   const Document* document = nullptr;
   const Index* index = nullptr;
@@ -126,11 +124,10 @@ void checkName(const Occurrence& one, const std::string& name, const Index& inde
 } // namespace
 
 const Document& documentOf(const Workspace& workspace, const Json& params) {
-  std::string uri;
-  if (params.is_object() && params.contains("textDocument") && params["textDocument"].is_object() &&
-      params["textDocument"].contains("uri") && params["textDocument"]["uri"].is_string())
-    uri = params["textDocument"]["uri"].get<std::string>();
-  const Document* const document = workspace.find(uri);
+  const auto at = params.find("textDocument");
+  if (at == params.end() || !at->is_object() || !at->contains("uri") || !(*at)["uri"].is_string())
+    throw Refusal{kInvalidParams, "the request names no document"};
+  const Document* const document = workspace.find((*at)["uri"].get<std::string>());
   if (document == nullptr) throw Refusal{kRequestFailed, "the document is not open"};
   return *document;
 }
@@ -138,7 +135,7 @@ const Document& documentOf(const Workspace& workspace, const Json& params) {
 std::uint32_t placeOf(const Workspace& workspace, const Index& index, const Json& params) {
   const auto at = params.find("position");
   const auto offset = at == params.end() ? std::nullopt : offsetOf(index.text(), *at, workspace.units);
-  if (!offset) throw Refusal{-32602, "the request has no position"};
+  if (!offset) throw Refusal{kInvalidParams, "the request has no position"};
   return *offset;
 }
 

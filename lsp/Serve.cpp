@@ -11,6 +11,8 @@
 namespace dotek::lsp {
 namespace {
 
+constexpr std::size_t kMostQueued = 1000;
+
 std::string textOf(const Json& message) {
   return message.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
@@ -29,9 +31,17 @@ int serve(int input, int output, const std::string& scriptProgram, std::ostream&
   std::signal(SIGPIPE, SIG_IGN); // an editor that is gone is the end of the input
   FrameReader reader(input);
   Server server(scriptProgram);
+  bool more = true; // the input has not ended
   while (!server.ended()) {
-    const std::optional<std::string> text = reader.next();
-    if (!text) {
+    // What has come is read at once: it may cancel what waits.
+    while (more && server.queued() < kMostQueued && (!server.hasQueued() || reader.waiting())) {
+      const std::optional<std::string> text = reader.next();
+      if (text)
+        server.queue(*text);
+      else
+        more = false;
+    }
+    if (!server.hasQueued()) {
       if (reader.broken()) {
         err << "dotek: error: what came on standard input is no message of the language server protocol; "
                "`dotek lsp` is started by an editor\n";
@@ -40,9 +50,9 @@ int serve(int input, int output, const std::string& scriptProgram, std::ostream&
       err << "dotek: the editor ended without `shutdown` and `exit`\n";
       return 1;
     }
-    for (const Json& message : server.receive(*text))
+    for (const Json& message : server.next())
       if (!writeFrame(output, textOf(message))) return lost(errno, err);
-    if (reader.waiting()) continue; // what is typed at once is checked once
+    if (server.hasQueued() || (more && reader.waiting())) continue; // what is typed at once is checked once
     for (const Json& message : server.idle())
       if (!writeFrame(output, textOf(message))) return lost(errno, err);
   }

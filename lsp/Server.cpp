@@ -9,7 +9,7 @@ namespace dotek::lsp {
 namespace {
 
 constexpr int kParseError = -32700, kInvalidRequest = -32600, kNoMethod = -32601, kInternal = -32603,
-              kNotInitialized = -32002;
+              kNotInitialized = -32002, kCancelled = -32800;
 
 Json failure(const Json& id, int code, const std::string& message) {
   return {{"jsonrpc", "2.0"}, {"id", id}, {"error", {{"code", code}, {"message", message}}}};
@@ -49,17 +49,42 @@ const std::map<std::string, Request>& requests() {
 
 } // namespace
 
-std::vector<Json> Server::receive(std::string_view text) {
-  const Json message = Json::parse(text, nullptr, false);
-  if (message.is_discarded()) return {failure(nullptr, kParseError, "the message is no JSON")};
-  if (message.is_array()) { // a batch
-    std::vector<Json> out;
-    for (const Json& one : message)
-      for (Json& answer : dispatch(one))
-        out.push_back(std::move(answer));
-    return out;
+void Server::queue(std::string_view text) {
+  Json message = Json::parse(text, nullptr, false);
+  if (message.is_array()) {
+    for (Json& one : message)
+      queued_.push_back({std::move(one)});
+    return;
   }
-  return dispatch(message);
+  cancel(message);
+  queued_.push_back({std::move(message)});
+}
+
+void Server::cancel(const Json& message) {
+  if (textAt(message, "method") != "$/cancelRequest") return;
+  const Json& params = objectAt(message, "params");
+  const auto id = params.is_object() ? params.find("id") : params.end();
+  if (!params.is_object() || id == params.end()) return;
+  for (Queued& one : queued_)
+    if (one.message.is_object() && one.message.contains("method") && one.message.value("id", Json()) == *id)
+      one.cancelled = true;
+}
+
+std::vector<Json> Server::next() {
+  const Queued one = std::move(queued_.front());
+  queued_.pop_front();
+  if (one.message.is_discarded()) return {failure(nullptr, kParseError, "the message is no JSON")};
+  if (one.cancelled && initialized_ && !shutDown_)
+    return {failure(one.message["id"], kCancelled, "the request was cancelled")};
+  return dispatch(one.message);
+}
+
+std::vector<Json> Server::receive(std::string_view text) {
+  std::vector<Json> out;
+  for (queue(text); hasQueued();)
+    for (Json& answer : next())
+      out.push_back(std::move(answer));
+  return out;
 }
 
 std::vector<Json> Server::dispatch(const Json& message) {
@@ -83,6 +108,10 @@ std::vector<Json> Server::dispatch(const Json& message) {
     return {{{"jsonrpc", "2.0"}, {"id", id}, {"result", answer(method, params)}}};
   } catch (const Refusal& refusal) {
     return {failure(id, refusal.code, refusal.message)};
+  } catch (const Json::exception&) {
+    if (!asks) return {};
+    return {failure(id, kInvalidParams,
+                    "a parameter of `" + method + "` is of another type than the protocol gives it")};
   } catch (const std::exception& error) {
     if (!asks) return {};
     return {failure(id, kInternal, error.what())};
@@ -90,7 +119,10 @@ std::vector<Json> Server::dispatch(const Json& message) {
 }
 
 Json Server::answer(const std::string& method, const Json& params) {
-  if (method == "initialize") return initialize(params);
+  if (method == "initialize") {
+    if (initialized_) throw Refusal{kInvalidRequest, "the server is initialized"};
+    return initialize(params);
+  }
   if (method == "shutdown") {
     shutDown_ = true;
     return nullptr;

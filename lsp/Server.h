@@ -4,15 +4,18 @@
 #include "lsp/Places.h"
 #include "lsp/Workspace.h"
 
+#include <deque>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace dotek::lsp {
 
+inline constexpr int kInvalidParams = -32602, kRequestFailed = -32803;
+
 // Why a request has no answer.
 struct Refusal {
-  int code = -32602; // invalid parameters
+  int code = kInvalidParams;
   std::string message;
 };
 
@@ -20,7 +23,14 @@ class Server {
 public:
   explicit Server(std::string scriptProgram) : workspace_(std::move(scriptProgram)) {}
 
-  // One message of the client; the answers, and what is sent with them.
+  // Takes a message of the client, or a batch of them, to answer it after those before. A request that is
+  // cancelled while it waits is answered with that alone.
+  void queue(std::string_view text);
+  std::size_t queued() const { return queued_.size(); }
+  bool hasQueued() const { return queued() > 0; }
+  // The answer to the message that waits longest, and what is sent with it.
+  std::vector<Json> next();
+  // One message and its answers, with those of what waits.
   std::vector<Json> receive(std::string_view text);
   // Nothing more waits: what has changed is checked, and the findings are sent.
   std::vector<Json> idle();
@@ -29,12 +39,18 @@ public:
   bool shutDown() const { return shutDown_; } // after `shutdown`
 
 private:
+  struct Queued {
+    Json message;
+    bool cancelled = false;
+  };
+  void cancel(const Json& message);
   std::vector<Json> dispatch(const Json& message);
   Json answer(const std::string& method, const Json& params);
   void notified(const std::string& method, const Json& params);
   Json initialize(const Json& params);
 
   Workspace workspace_;
+  std::deque<Queued> queued_;
   bool initialized_ = false, shutDown_ = false, ended_ = false;
 };
 

@@ -47,6 +47,16 @@ public:
       if (message["params"]["uri"] == uriOf(path)) out = message["params"]["diagnostics"];
     return out;
   }
+  // What may be written at a place.
+  std::vector<std::string> labels(const std::string& path, int line, int character) {
+    const Json found =
+        result("textDocument/completion", {{"textDocument", {{"uri", uriOf(path)}}},
+                                           {"position", {{"line", line}, {"character", character}}}});
+    std::vector<std::string> out;
+    for (const Json& one : found["items"])
+      out.push_back(one["label"]);
+    return out;
+  }
   lsp::Server& server() { return server_; }
 
 private:
