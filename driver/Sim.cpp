@@ -35,6 +35,7 @@
 #include "support/Decimal.h"
 #include "support/Files.h"
 #include "support/LineChunks.h"
+#include "support/WholeName.h"
 #include "support/messages/Commands.h"
 #include "support/messages/Common.h"
 #include "support/messages/Device.h"
@@ -102,9 +103,11 @@ public:
     if (!world_ || !loadDevice()) return outcomeOf(session_, "");
     shown_ = project::shownVariablesOf(options_.shown, *control_, diagnostics());
     if (!shown_.empty()) world_->keepOffsets();
-    // What cannot be read twice, a pipe, is kept; so its size is bounded.
+    // What cannot be read twice, a pipe, is kept, and what an editor holds; so its size is bounded.
     std::optional<std::string> kept;
-    if (isStream(options_.program)) kept = session_.bytes(options_.program, diagnostics());
+    const auto& held = options_.common.buffers;
+    if (isStream(options_.program) || (held && held->contains(wholeName(options_.program))))
+      kept = session_.bytes(options_.program, diagnostics());
     std::unique_ptr<LineChunks> chunks =
         kept ? std::make_unique<LineChunks>(*kept) : LineChunks::open(options_.program, diagnostics());
     if (!chunks || diagnostics().hasErrors()) return outcomeOf(session_, "");

@@ -72,6 +72,7 @@ struct Index {
   std::vector<Symbol> symbols;
   std::vector<Fact> facts;
   std::vector<Hint> hints;
+  std::vector<std::string> needed; // parameters that a run gets no value for
   // Names with this beginning keep their meaning where all occurrences of this index are renamed; what is not
   // listed is known elsewhere, too.
   std::vector<std::string> renamable;

@@ -67,9 +67,11 @@ private:
                                 header->name.range,
                                 {}});
     } else if (const auto* parameter = std::get_if<cycle::Parameter>(&statement.node)) {
-      for (const cycle::Name& name : parameter->names)
+      for (const cycle::Name& name : parameter->names) {
         define(name, parameterText(*parameter, name.text), SymbolKind::Field, statement.range,
                typeOf(parameter->type));
+        if (!parameter->optional && parameter->value == nullptr) index_.needed.push_back(name.text);
+      }
     } else if (const auto* result = std::get_if<cycle::Result>(&statement.node)) {
       for (const cycle::Name& name : result->names)
         define(name,

@@ -43,6 +43,7 @@ const std::map<std::string, Request>& requests() {
       {"textDocument/codeLens", codeLenses},
       {"textDocument/formatting", formatting},
       {"workspace/executeCommand", execute},
+      {"dotek/run", runCommand},
   };
   return kRequests;
 }
@@ -154,6 +155,7 @@ Json Server::initialize(const Json& params) {
       {"codeActionProvider", {{"codeActionKinds", {"quickfix", "source.fixAll.dotek"}}}},
       {"completionProvider", {{"triggerCharacters", {"'", "#", " ", "."}}}},
       {"executeCommandProvider", {{"commands", commandNames()}}},
+      {"experimental", {{"dotekRun", true}}},
   };
   return {{"capabilities", capabilities},
           {"serverInfo", {{"name", "dotek"}, {"version", std::string(kVersion)}}}};

@@ -67,6 +67,8 @@ Json completion(Workspace& workspace, const Json& params);
 Json codeActions(Workspace& workspace, const Json& params);
 Json codeLenses(Workspace& workspace, const Json& params);
 Json formatting(Workspace& workspace, const Json& params);
+// `dotek/run`: what post, convert, run, verify or preview give, as a page or a text.
+Json runCommand(Workspace& workspace, const Json& params);
 Json execute(Workspace& workspace, const Json& params);
 // The names of execute().
 Json commandNames();

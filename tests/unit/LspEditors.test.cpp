@@ -23,6 +23,18 @@ local params = { textDocument = vim.lsp.util.make_text_document_params(), positi
 for _, answer in pairs(vim.lsp.buf_request_sync(0, "textDocument/hover", params, 20000) or {}) do
   io.write(answer.result.contents.value:match("[^\n]*"), "\n")
 end
+-- A lens opens its result beside the text, and the text keeps the cursor.
+local uri, buffer = vim.uri_from_bufnr(0), vim.api.nvim_get_current_buf()
+vim.lsp.commands["dotek.run"]({ command = "dotek.run", arguments = { uri } }, { bufnr = 0 })
+local beside = function() return vim.fn.bufwinid("^dotek://run$") end
+vim.wait(20000, function() return beside() ~= -1 end, 20)
+io.write("run: ", table.concat(vim.api.nvim_buf_get_lines(vim.api.nvim_win_get_buf(beside()), 0, -1, false), "|"), "\n")
+io.write("cursor: ", tostring(vim.api.nvim_get_current_buf() == buffer), "\n")
+vim.cmd("3")
+vim.cmd("Dotek explain")
+vim.wait(20000, function() return vim.fn.bufwinid("^dotek://goto-target-missing$") ~= -1 end, 20)
+io.write("page: ", tostring(vim.fn.bufwinid("^dotek://goto-target-missing$") ~= -1), "\n")
+io.write("key: ", vim.fn.maparg("gd", "n"), "\n")
 vim.cmd("qa!")
 )LUA");
   const ShellResult result =
@@ -31,6 +43,10 @@ vim.cmd("qa!")
   const std::string text = result.out + result.err;
   CHECK_MESSAGE(text.find("2 goto-target-missing") != std::string::npos, text);
   CHECK_MESSAGE(text.find("**G0** positioning") != std::string::npos, text);
+  CHECK_MESSAGE(text.find("run: rapid X0.000000 Y0.000000 Z5.000000|alarm 128") != std::string::npos, text);
+  CHECK_MESSAGE(text.find("cursor: true") != std::string::npos, text);
+  CHECK_MESSAGE(text.find("page: true") != std::string::npos, text);
+  CHECK_MESSAGE(text.find("vim.lsp.buf.definition") != std::string::npos, text);
 }
 
 TEST_CASE("lsp: the extension for Visual Studio Code, its grammars and its protocol") {

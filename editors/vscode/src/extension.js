@@ -20,6 +20,27 @@ async function show(result) {
   await vscode.window.showTextDocument(document, { viewColumn: vscode.ViewColumn.Beside, preview: true });
 }
 
+// Runs a command on a text. Values that it refuses to do without are asked for, once each.
+async function run(command, uri, target) {
+  const params = { command, textDocument: { uri }, target };
+  const asked = new Set();
+  for (;;) {
+    const result = await client.sendRequest("dotek/run", params);
+    let given = false;
+    for (const one of (result && result.missing) || []) {
+      const key = one.option + " " + one.name;
+      if (asked.has(key)) continue;
+      asked.add(key);
+      const value = await vscode.window.showInputBox({ title: "Dotek: " + one.name, prompt: one.title, ignoreFocusOut: true });
+      if (!value) continue;
+      if (one.option === "call") params.call = value;
+      else params[one.option] = { ...params[one.option], [one.name]: value };
+      given = true;
+    }
+    if (!given) return show(result);
+  }
+}
+
 async function start() {
   const command = vscode.workspace.getConfiguration("dotek").get("path") || "dotek";
   const run = { command, args: ["lsp"], transport: TransportKind.stdio };
@@ -27,7 +48,11 @@ async function start() {
     documentSelector: languages.map((language) => ({ scheme: "file", language })),
     synchronize: { fileEvents: vscode.workspace.createFileSystemWatcher("**/dotek.toml") },
     middleware: {
-      executeCommand: async (name, args, next) => show(await next(name, args)),
+      executeCommand: async (name, args, next) => {
+        const command = name.replace(/^dotek\./, "");
+        if (Object.values(commands).includes(command)) return run(command, args[0], args[1]);
+        return show(await next(name, args));
+      },
     },
   });
   await client.start();
@@ -45,8 +70,7 @@ exports.activate = async (context) => {
       vscode.commands.registerCommand("dotek." + name, async () => {
         const editor = vscode.window.activeTextEditor;
         if (!editor || !client) return;
-        const uri = client.code2ProtocolConverter.asUri(editor.document.uri);
-        await show(await client.sendRequest("workspace/executeCommand", { command: "dotek." + command, arguments: [uri] }));
+        await run(command, client.code2ProtocolConverter.asUri(editor.document.uri));
       }),
     );
   }
