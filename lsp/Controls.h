@@ -3,9 +3,16 @@
 
 #include "stdlib/Control.h"
 #include "stdlib/MacroSet.h"
+#include "stdlib/MikroprogControl.h"
+#include "support/Source.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
+
+namespace dotek::project {
+class Session;
+}
 
 namespace dotek::lsp {
 
@@ -19,5 +26,11 @@ std::string argumentFact(const stdlib::MacroSet& set, const stdlib::MacroSignatu
                          const stdlib::MacroArgument& argument);
 // The program of a set with all its readings.
 std::string programFact(const stdlib::MacroSet& set, std::uint32_t program);
+
+// A function of Mikroprog with its letters.
+std::string mikroprogFact(const stdlib::MikroprogFunction& function);
+// The profile that the project names, else the one that the text is for. nullopt: there is none.
+std::optional<stdlib::MikroprogControl> mikroprogControl(const SourceMap& sources, FileId file,
+                                                         const std::string& path, project::Session& session);
 
 } // namespace dotek::lsp

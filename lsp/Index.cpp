@@ -59,8 +59,8 @@ Index makeIndex(const std::string& path, const project::CommonOptions& options) 
   case project::InputKind::Prog: indexComPost(out, session); break;
   case project::InputKind::Macro:
   case project::InputKind::Dialog:
-  case project::InputKind::DefineData: indexGibbs(out, session); break;
-  case project::InputKind::Cycle: indexCycle(out, session); break;
+  case project::InputKind::DefineData: indexGibbs(out, session, path); break;
+  case project::InputKind::Cycle: indexCycle(out, session, path); break;
   case project::InputKind::Suf: indexMikroprog(out, session, path); break;
   }
   sortByPlace(out);

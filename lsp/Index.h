@@ -26,6 +26,7 @@ struct Occurrence {
   std::string key;
   Role role = Role::Read;
   SourceRange range;
+  std::string scope = {}; // of a field in a Prog: the cycle that is posted there; "": any
 };
 
 // Kinds of symbols by the numbers of the protocol.
@@ -57,12 +58,6 @@ struct Hint {
   std::string label;
 };
 
-// A word that may be written at a place.
-struct Proposal {
-  std::string label, detail, documentation;
-  int kind = 14; // CompletionItemKind: 14 keyword, 5 field, 6 variable, 3 function, 12 value
-};
-
 struct Index {
   std::optional<project::InputKind> kind;
   SourceMap sources;
@@ -72,6 +67,8 @@ struct Index {
   std::vector<Symbol> symbols;
   std::vector<Fact> facts;
   std::vector<Hint> hints;
+  // Files that a name stands for: of a cycle or a macro that is called, by the key of the name.
+  std::map<std::string, std::string> files;
   std::vector<std::string> needed; // parameters that a run gets no value for
   // Names with this beginning keep their meaning where all occurrences of this index are renamed; what is not
   // listed is known elsewhere, too.
@@ -88,15 +85,11 @@ struct Index {
 // Reads the file, or what the editor holds of it. Never fails: of what cannot be read nothing is listed.
 Index makeIndex(const std::string& path, const project::CommonOptions& options);
 
-// Words that may follow `before`, the text of the line up to the cursor, in this place of the text.
-std::vector<Proposal> proposals(const Index& index, const std::string& path, std::uint32_t offset,
-                                const project::CommonOptions& options);
-
 // Private to the index: one language each.
 void indexMacroB(Index& index, project::Session& session, const std::string& path);
-void indexGibbs(Index& index, project::Session& session);
+void indexGibbs(Index& index, project::Session& session, const std::string& path);
 void indexComPost(Index& index, project::Session& session);
-void indexCycle(Index& index, project::Session& session);
+void indexCycle(Index& index, project::Session& session, const std::string& path);
 void indexMikroprog(Index& index, project::Session& session, const std::string& path);
 
 } // namespace dotek::lsp

@@ -2,6 +2,7 @@
 #include "frontend/compost/Parse.h"
 #include "lsp/Index.h"
 #include "project/Session.h"
+#include "support/Ascii.h"
 
 #include <fmt/format.h>
 #include <set>
@@ -47,10 +48,24 @@ private:
         this->word(*word);
       } else if (const auto* branch = std::get_if<std::unique_ptr<compost::If>>(&statement)) {
         condition((*branch)->condition);
+        const std::string outer = cycle_;
+        if (const std::string asked = cycleAsked((*branch)->condition); !asked.empty()) cycle_ = asked;
         body((*branch)->thenBody);
+        cycle_ = outer;
         body((*branch)->elseBody);
       }
     }
+  }
+
+  // The cycle of which alone the condition holds; "": of several, or none.
+  std::string cycleAsked(const compost::Condition& condition) const {
+    for (const compost::Connective connective : condition.connectives)
+      if (connective != compost::Connective::And) return "";
+    for (const compost::ConditionTerm& term : condition.terms)
+      if (const auto* word = std::get_if<compost::Word>(&term.operand))
+        if (term.nots.empty() && word->name == "CycleType" && word->arguments.size() == 1)
+          return index_.utf8(word->arguments.front().text);
+    return "";
   }
 
   void condition(const compost::Condition& condition) {
@@ -82,7 +97,8 @@ private:
       const std::string kind = word.name == "OpFieldData" ? "field"
                                : word.name == "CycleType" ? "cycle"
                                                           : "flag " + word.name;
-      index_.occurrences.push_back({kind + " " + text, Role::Read, inside});
+      index_.occurrences.push_back({kind + " " + (kind == "field" ? upperCase(text) : text), Role::Read,
+                                    inside, kind == "field" ? cycle_ : ""});
       if (kind == "cycle" && symbol_ != nullptr)
         symbol_->children.push_back({text, "cycle", SymbolKind::Key, word.range, inside, {}});
     }
@@ -92,6 +108,7 @@ private:
   const stdlib::ComPostKeywords& keywords_;
   std::set<std::string> routines_;
   Symbol* symbol_ = nullptr;
+  std::string cycle_; // that is posted here; "": any
 };
 
 } // namespace

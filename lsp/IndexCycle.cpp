@@ -6,6 +6,7 @@
 #include "project/Session.h"
 
 #include <cstdint>
+#include <filesystem>
 #include <fmt/format.h>
 #include <map>
 #include <set>
@@ -35,7 +36,7 @@ std::string parameterText(const cycle::Parameter& parameter, const std::string& 
 
 class Indexer {
 public:
-  Indexer(Index& index, project::CycleFiles& library) : index_(index), library_(library) {}
+  Indexer(Index& index, const SourceMap& sources) : index_(index), sources_(sources) {}
 
   void file(const cycle::File& file) {
     cycle::eachStatement(file.body, [&](const cycle::Statement& statement) { declare(statement); });
@@ -81,7 +82,7 @@ private:
     } else if (const auto* touch = std::get_if<cycle::Touch>(&statement.node)) {
       if (touch->name)
         define(*touch->name, fmt::format("**{}** touch", touch->name->text), SymbolKind::Variable,
-               statement.range, "touch");
+               statement.range, touch->along.empty() ? "touch" : "touch along a direction");
     } else if (const auto* call = std::get_if<cycle::Call>(&statement.node)) {
       if (call->result)
         define(*call->result, fmt::format("**{}** results of `{}`", call->result->text, call->cycle.text),
@@ -106,8 +107,11 @@ private:
 
   void called(const cycle::Call& call) {
     index_.occurrences.push_back({"cycle " + call.cycle.text, Role::Read, call.cycle.range});
-    const cycle::File* const target = library_.library(call.cycle.text);
+    const cycle::File* const target = call.called;
     if (target == nullptr) return;
+    const std::string& path = sources_.file(target->file).name();
+    std::error_code error;
+    if (std::filesystem::is_regular_file(path, error)) index_.files["cycle " + call.cycle.text] = path;
     std::string fact = "**" + call.cycle.text + "**";
     if (const cycle::Header* header = target->header(); header != nullptr && header->title)
       fact += " " + header->title->text;
@@ -195,7 +199,7 @@ private:
   }
 
   Index& index_;
-  project::CycleFiles& library_;
+  const SourceMap& sources_;
   std::set<std::string> known_;
   std::set<std::uint32_t> defined_; // where names are defined
   std::map<std::string, std::string> facts_;
@@ -203,11 +207,9 @@ private:
 
 } // namespace
 
-void indexCycle(Index& index, project::Session& session) {
-  Diagnostics unheard;
-  const cycle::File file = cycle::parse(index.file, session.sources(), session.limits(), unheard);
-  project::CycleFiles library(session);
-  Indexer(index, library).file(file);
+void indexCycle(Index& index, project::Session& session, const std::string& path) {
+  project::CycleFiles files(session);
+  if (const cycle::File* file = files.linked(path)) Indexer(index, session.sources()).file(*file);
 }
 
 } // namespace dotek::lsp

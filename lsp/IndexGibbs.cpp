@@ -4,6 +4,10 @@
 #include "frontend/gibbs/Walk.h"
 #include "lsp/Index.h"
 #include "project/Session.h"
+#include "stdlib/KeywordLists.h"
+#include "support/Ascii.h"
+
+#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -16,7 +20,9 @@ namespace {
 
 class Indexer {
 public:
-  Indexer(Index& index, const stdlib::GibbsKeywords& keywords) : index_(index), keywords_(keywords) {}
+  Indexer(Index& index, const stdlib::GibbsKeywords& keywords, const std::string& path)
+      : index_(index), keywords_(keywords),
+        folder_(std::filesystem::path(path).parent_path().generic_string()) {}
 
   void macro(const gibbs::Macro& macro) {
     for (const gibbs::Line& line : macro.lines) {
@@ -31,9 +37,15 @@ public:
 
   void dialog(const gibbs::Dialog& dialog) {
     for (const gibbs::Control& control : dialog.controls) {
+      for (const stdlib::CommandSignature* one : keywords_.dialogControls(control.kind.text))
+        index_.facts.push_back({control.kind.range, "`" + stdlib::textOf(*one) + "`"});
       const std::string title = control.text ? index_.utf8(*control.text) : "";
       if (control.variable) {
         add(*control.variable, Role::Write);
+        index_.facts.push_back(
+            {control.variable->range,
+             fmt::format("**{}** {} of the dialog{}", index_.utf8(control.variable->text),
+                         lowerCase(index_.utf8(control.kind.text)), captionsOf(dialog, control))});
         index_.symbols.push_back({index_.utf8(control.variable->text),
                                   index_.utf8(control.kind.text),
                                   SymbolKind::Field,
@@ -57,6 +69,12 @@ public:
   void definitions(const gibbs::DefineData& data) {
     for (const gibbs::Definition& one : data.definitions) {
       add(one.name, Role::Definition);
+      index_.facts.push_back(
+          {one.name.range, fmt::format("**{}** field of the cycle{}{}", index_.utf8(one.name.text),
+                                       one.number ? fmt::format(", {} at first", *one.number) : "",
+                                       keywords_.isReservedField(one.name.text)
+                                           ? "; the name switches a field of the standard drill dialog"
+                                           : "")});
       index_.symbols.push_back({index_.utf8(one.name.text),
                                 one.number ? fmt::format("= {}", *one.number) : "",
                                 SymbolKind::Field,
@@ -68,6 +86,35 @@ public:
   }
 
 private:
+  // Texts of the labels in the row of a control: ": \"X [mm]\", \"Travel to the face\"".
+  std::string captionsOf(const gibbs::Dialog& dialog, const gibbs::Control& control) const {
+    std::string out;
+    if (!control.box) return out;
+    for (const gibbs::Control& label : dialog.controls) {
+      if (&label == &control || !label.text || !label.box || label.variable) continue;
+      const int middle = control.box->top + control.box->height / 2;
+      if (gibbs::foldCase(label.kind.text) != "LABEL" || label.box->top > middle ||
+          label.box->top + label.box->height < middle)
+        continue;
+      out += (out.empty() ? ": \"" : ", \"") + index_.utf8(*label.text) + "\"";
+    }
+    return out;
+  }
+
+  // The file of the folder that a CALL or a DIALOG names.
+  void file(const std::string& name, SourceRange range, const char* suffix) {
+    std::error_code error;
+    const std::string wanted = gibbs::foldCase(name);
+    for (const auto& entry : std::filesystem::directory_iterator(folder_, error)) {
+      const std::string found = gibbs::foldCase(entry.path().filename().string());
+      if (found != wanted && found != wanted + suffix) continue;
+      const std::string key = "file " + index_.utf8(wanted);
+      index_.occurrences.push_back({key, Role::Read, range, ""});
+      index_.files[key] = entry.path().generic_string();
+      return;
+    }
+  }
+
   void statement(const gibbs::Statement& statement) {
     if (const auto* assign = std::get_if<gibbs::Assignment>(&statement.node))
       add(assign->target.name, Role::Write);
@@ -85,25 +132,25 @@ private:
     else if (const auto* declared = std::get_if<gibbs::Declaration>(&statement.node))
       for (const gibbs::VariableRef& name : declared->names)
         add(name.name, Role::Definition);
-    else if (const auto* command = std::get_if<gibbs::Command>(&statement.node))
+    else if (const auto* command = std::get_if<gibbs::Command>(&statement.node)) {
       signatures(*command);
+      if (gibbs::foldCase(command->name.text) == "DIALOG" && command->arguments.size() == 1)
+        if (const auto* text = std::get_if<gibbs::TextLiteral>(&command->arguments.front()->node))
+          file(text->text, command->arguments.front()->range, ".DLG");
+    } else if (const auto* call = std::get_if<gibbs::CallMacro>(&statement.node)) {
+      if (call->macro == nullptr)
+        file(call->bareName, call->macroRange, ".MAC");
+      else if (const auto* text = std::get_if<gibbs::TextLiteral>(&call->macro->node))
+        file(text->text, call->macroRange, ".MAC");
+    } else if (const auto* include = std::get_if<gibbs::Include>(&statement.node))
+      file(include->file, include->fileRange, ".MAC");
     gibbs::ownExpressions(statement, [&](const gibbs::Expression& one) { expression(one, {}); });
   }
 
   void signatures(const gibbs::Command& command) {
     std::string text;
-    for (const stdlib::CommandSignature* one : keywords_.commands(command.name.text)) {
-      text += "`" + one->name;
-      for (const stdlib::ArgumentSpec& argument : one->arguments) {
-        text += text.ends_with(one->name) ? " " : ", ";
-        std::string name = argument.name;
-        if (name.empty()) name = argument.family;
-        for (const std::string& keyword : argument.keywords)
-          name += (name.empty() ? "" : "|") + keyword;
-        text += argument.optional ? "[" + name + "]" : name;
-      }
-      text += "`\n\n";
-    }
+    for (const stdlib::CommandSignature* one : keywords_.commands(command.name.text))
+      text += "`" + stdlib::textOf(*one) + "`\n\n";
     for (const std::string_view note : keywords_.commandNotes(command.name.text))
       text += std::string(note) + "\n\n";
     if (!text.empty()) index_.facts.push_back({command.name.range, std::move(text)});
@@ -114,6 +161,11 @@ private:
     gibbs::walkExpression(expression, [&](const gibbs::Expression& one) {
       if (const auto* reference = std::get_if<gibbs::VariableRef>(&one.node))
         if (!(reference->name.range == but)) add(reference->name, Role::Read);
+      if (const auto* function = std::get_if<gibbs::FunctionCall>(&one.node))
+        if (const stdlib::FunctionSpec* known = keywords_.function(function->name.text))
+          index_.facts.push_back(
+              {function->name.range, fmt::format("**{}** function{}{}", known->name,
+                                                 known->note.empty() ? "" : ": ", known->note)});
     });
   }
 
@@ -121,6 +173,12 @@ private:
     if (const stdlib::CallbackVariable* known = keywords_.callback(name.text))
       index_.facts.push_back({name.range, fmt::format("**{}** set by the CAM{}{}", known->name,
                                                       known->note.empty() ? "" : ": ", known->note)});
+    else if (keywords_.isConstant(name.text))
+      index_.facts.push_back(
+          {name.range, fmt::format("**{}** constant of GibbsCAM", index_.utf8(name.text))});
+    else if (keywords_.isSystemVariable(name.text))
+      index_.facts.push_back(
+          {name.range, fmt::format("**{}** set by GibbsCAM or by its commands", index_.utf8(name.text))});
     index_.occurrences.push_back({"field " + index_.utf8(gibbs::foldCase(name.text)), role, name.range});
   }
   void label(const gibbs::Name& name, Role role) {
@@ -131,14 +189,15 @@ private:
 
   Index& index_;
   const stdlib::GibbsKeywords& keywords_;
+  std::string folder_;
 };
 
 } // namespace
 
-void indexGibbs(Index& index, project::Session& session) {
+void indexGibbs(Index& index, project::Session& session, const std::string& path) {
   Diagnostics unheard;
   const gibbs::ParseContext context{session.sources(), session.gibbsKeywords(), session.limits(), unheard};
-  Indexer indexer(index, session.gibbsKeywords());
+  Indexer indexer(index, session.gibbsKeywords(), path);
   switch (*index.kind) {
   case project::InputKind::Dialog: indexer.dialog(gibbs::parseDialog(index.file, context)); break;
   case project::InputKind::DefineData:

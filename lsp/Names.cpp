@@ -1,7 +1,11 @@
 // Requests about names and symbols: hover, definition, references, rename, symbols, hints.
 #include "lsp/Server.h"
+#include "project/CycleFolder.h"
+#include "support/Ascii.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <fmt/format.h>
 #include <set>
 
 namespace dotek::lsp {
@@ -39,34 +43,76 @@ struct Use {
   const Occurrence* occurrence = nullptr;
 };
 
-// Names that are known in all files of a cycle's folder; others are of their file, as the labels of a macro.
-bool isShared(const std::string& key) {
-  return key.starts_with("field ");
+std::string folderName(const std::string& path) {
+  return std::filesystem::path(path).filename().string();
 }
 
-std::vector<Use> usesOf(Workspace& workspace, const Document& document, const std::string& key) {
-  std::vector<Use> out;
-  const auto add = [&](const std::string& uri, const Index& index) {
+// Fields of two cycles with one name are two fields; a Prog says which cycle it prints.
+class Finder {
+public:
+  Finder(Workspace& workspace, const Document& document, const Occurrence& one)
+      : workspace_(workspace), document_(document), key_(one.key), scope_(one.scope) {}
+
+  std::vector<Use> uses() {
+    const bool field = key_.starts_with("field ");
+    add(document_.path);
+    const std::string unit = Workspace::unitOf(document_.path);
+    const bool ofCycle = unit != document_.path;
+    const bool prog = workspace_.index(document_).kind == std::optional(project::InputKind::Prog);
+    if (field && ofCycle) {
+      scope_ = folderName(unit);
+      for (const std::string& path : workspace_.companions(document_))
+        add(path);
+      if (const std::string post = Workspace::postOf(document_); !post.empty()) add(post);
+    } else if (field && prog) {
+      for (const std::string& folder : Workspace::cycleFolders(document_))
+        if (scope_.empty() || folderName(folder) == scope_) addFolder(folder);
+    } else if (key_.starts_with("O ")) {
+      for (const std::string& path : workspace_.beside(document_, project::InputKind::Nc))
+        add(path);
+    } else if (key_.starts_with("cycle ") && !prog) {
+      for (const std::string& path : workspace_.beside(document_, project::InputKind::Cycle))
+        add(path);
+    }
+    // What is open, too.
+    const bool common = key_.starts_with("# ") && key_.find(' ', 2) == std::string::npos;
+    for (const auto& [uri, other] : workspace_.documents()) {
+      const bool isProg = workspace_.index(other).kind == std::optional(project::InputKind::Prog);
+      const std::string folder = Workspace::unitOf(other.path);
+      const bool sameCycle = prog && folder != other.path && (scope_.empty() || folderName(folder) == scope_);
+      if (common || key_.starts_with("O ") || key_.starts_with("cycle ") ||
+          (field && (isProg ? prog || ofCycle : sameCycle)))
+        add(other.path);
+    }
+    return std::move(out_);
+  }
+
+private:
+  void addFolder(const std::string& folder) {
+    for (const char* name : {"DefineData.txt", "CycleData.dlg", "CycleData.mac", "ToolPath.mac"})
+      if (const auto path = project::cycleFile(folder, name)) add(path->generic_string());
+  }
+
+  void add(const std::string& path) {
+    if (!seen_.insert(path).second) return;
+    std::string uri = uriOf(path);
+    for (const auto& [open, other] : workspace_.documents())
+      if (other.path == path) uri = open;
+    const Index& index = workspace_.indexOf(path);
     for (const Occurrence& one : index.occurrences)
-      if (one.key == key) out.push_back({uri, &index, &one});
-  };
-  add(document.uri, workspace.index(document));
-  const auto openAs = [&](const std::string& path) {
-    for (const auto& [uri, other] : workspace.documents())
-      if (other.path == path) return uri;
-    return uriOf(path);
-  };
-  std::set<std::string> seen{document.path};
-  if (isShared(key))
-    for (const std::string& path : workspace.companions(document))
-      if (seen.insert(path).second) add(openAs(path), workspace.indexOf(path));
-  // Programs, fields of a post, cycles and common variables: in what is open, too.
-  const bool wide = key.starts_with("O ") || key.starts_with("field ") || key.starts_with("cycle ") ||
-                    (key.starts_with("# ") && key.find(' ', 2) == std::string::npos);
-  if (wide)
-    for (const auto& [uri, other] : workspace.documents())
-      if (seen.insert(other.path).second) add(uri, workspace.index(other));
-  return out;
+      if (one.key == key_ && (one.scope.empty() || scope_.empty() || one.scope == scope_))
+        out_.push_back({uri, &index, &one});
+  }
+
+  Workspace& workspace_;
+  const Document& document_;
+  std::string key_, scope_;
+  std::set<std::string> seen_;
+  std::vector<Use> out_;
+};
+
+std::vector<Use> usesOf(Workspace& workspace, const Document& document, const Occurrence& one) {
+  return Finder(workspace, document, one).uses();
 }
 
 Json locationOf(const Use& use, Units units) {
@@ -89,8 +135,8 @@ Json symbolJson(const Symbol& symbol, const SourceFile& file, Units units) {
 // What a name's occurrence holds beside the name itself: the N of a block, the # of a variable.
 std::string prefixOf(const Index& index, const Occurrence& one) {
   const std::string text = index.sources.textUtf8(one.range);
-  if (one.key.starts_with("N ") && !text.empty() && (text.front() == 'N' || text.front() == 'n'))
-    return text.substr(0, 1);
+  // Of Mikroprog the L of a jump.
+  if (one.key.starts_with("N ") && !text.empty() && isLetter(text.front())) return text.substr(0, 1);
   return "";
 }
 
@@ -103,7 +149,7 @@ const Occurrence& renamed(const Place& place) {
         kRequestFailed,
         "this name is known outside of what is open: the control, the CAM or another program may use it"};
   if (one->key.starts_with("N ") && place.index->computedJumps)
-    throw Refusal{kRequestFailed, "a GOTO of this file computes its block number, so no number is renamed"};
+    throw Refusal{kRequestFailed, "a jump of this file computes its block number, so no number is renamed"};
   return *one;
 }
 
@@ -139,6 +185,36 @@ std::uint32_t placeOf(const Workspace& workspace, const Index& index, const Json
   return *offset;
 }
 
+namespace {
+
+// What is known of a name elsewhere: at its declaration in another file, or the comment of a program.
+Fact factElsewhere(Workspace& workspace, const Place& place) {
+  const Occurrence* const one = place.index->at(place.offset);
+  if (one == nullptr) return {};
+  Fact out{one->range, ""};
+  for (const Use& use : usesOf(workspace, *place.document, *one)) {
+    if (use.occurrence->role == Role::Read) continue;
+    const std::string file = folderName(use.index->text().name());
+    if (one->key.starts_with("O ")) {
+      for (const Symbol& symbol : use.index->symbols)
+        if (symbol.nameRange == use.occurrence->range)
+          out.text = fmt::format("**{}** {}\n\n{}", symbol.name, symbol.detail, file);
+      break;
+    }
+    const bool declares = use.index->kind == std::optional(project::InputKind::DefineData) ||
+                          use.index->kind == std::optional(project::InputKind::Dialog);
+    if (!one->key.starts_with("field ") || !declares) continue;
+    for (const Fact& fact : use.index->facts)
+      if (fact.range == use.occurrence->range && out.text.find(fact.text) == std::string::npos) {
+        out.text += (out.text.empty() ? "" : "\n\n") + fact.text + fmt::format(" ({})", file);
+        break;
+      }
+  }
+  return out;
+}
+
+} // namespace
+
 Json hover(Workspace& workspace, const Json& params) {
   const std::optional<Place> found = placeIn(workspace, params);
   if (!found) return nullptr;
@@ -157,6 +233,12 @@ Json hover(Workspace& workspace, const Json& params) {
     if (place.offset >= fact.range.begin && place.offset <= fact.range.end &&
         (best == nullptr || fact.range.begin >= best->range.begin))
       best = &fact;
+  // A field is its first value and its row in the dialog.
+  const Occurrence* const named = place.index->at(place.offset);
+  Fact elsewhere;
+  if (best == nullptr || (named != nullptr && named->key.starts_with("field ")))
+    elsewhere = factElsewhere(workspace, place);
+  if (!elsewhere.text.empty()) best = &elsewhere;
   if (best != nullptr) {
     text = best->text + (text.empty() ? "" : "\n\n---\n\n" + text);
     range = best->range;
@@ -172,13 +254,26 @@ Json definition(Workspace& workspace, const Json& params) {
   const Place& place = *found;
   const Occurrence* const one = place.index->at(place.offset);
   if (one == nullptr) return nullptr;
-  const std::vector<Use> uses = usesOf(workspace, *place.document, one->key);
+  const std::vector<Use> uses = usesOf(workspace, *place.document, *one);
   Json out = Json::array();
   for (const Use& use : uses)
     if (use.occurrence->role == Role::Definition) out.push_back(locationOf(use, workspace.units));
   // What nothing declares begins where it is first written.
   for (const Use& use : uses)
     if (out.empty() && use.occurrence->role == Role::Write) out.push_back(locationOf(use, workspace.units));
+  if (!out.empty()) return out;
+  // The beginning of the file that the name stands for.
+  std::string path;
+  if (const auto file = place.index->files.find(one->key); file != place.index->files.end())
+    path = file->second;
+  if (one->key.starts_with("cycle "))
+    for (const std::string& folder : Workspace::cycleFolders(*place.document))
+      if (path.empty() && folderName(folder) == one->key.substr(6))
+        for (const char* name : {"ToolPath.mac", "CycleData.mac", "CycleData.dlg", "DefineData.txt"})
+          if (const auto file = project::cycleFile(folder, name); file && path.empty())
+            path = file->generic_string();
+  const Json start = {{"line", 0}, {"character", 0}};
+  if (!path.empty()) out.push_back({{"uri", uriOf(path)}, {"range", {{"start", start}, {"end", start}}}});
   return out;
 }
 
@@ -191,7 +286,7 @@ Json references(Workspace& workspace, const Json& params) {
   if (one == nullptr) return out;
   const bool declarations =
       !params.contains("context") || params["context"].value("includeDeclaration", true);
-  for (const Use& use : usesOf(workspace, *place.document, one->key))
+  for (const Use& use : usesOf(workspace, *place.document, *one))
     if (declarations || use.occurrence->role != Role::Definition)
       out.push_back(locationOf(use, workspace.units));
   return out;
@@ -226,7 +321,7 @@ Json rename(Workspace& workspace, const Json& params) {
   const std::string name = params.value("newName", "");
   checkName(one, name, *place.index);
   Json changes = Json::object();
-  for (const Use& use : usesOf(workspace, *place.document, one.key))
+  for (const Use& use : usesOf(workspace, *place.document, one))
     changes[use.uri].push_back({{"range", rangeOf(use.index->text(), use.occurrence->range, workspace.units)},
                                 {"newText", prefixOf(*use.index, *use.occurrence) + name}});
   return {{"changes", changes}};

@@ -128,6 +128,7 @@ void Workspace::close(const std::string& uri) {
 }
 
 void Workspace::touchAll() {
+  onDisk_.clear(); // settings may be others
   for (const auto& [uri, document] : documents_)
     changed(document.path);
 }
@@ -218,25 +219,6 @@ const std::vector<Found>& Workspace::found(const std::string& path) const {
 
 const Index& Workspace::index(const Document& document) {
   return indexOf(document.path);
-}
-
-const Index& Workspace::indexOf(const std::string& path) {
-  std::unique_ptr<Index>& index = indices_[path];
-  if (index == nullptr) index = std::make_unique<Index>(makeIndex(path, options({unitOf(path)})));
-  return *index;
-}
-
-std::vector<std::string> Workspace::companions(const Document& document) const {
-  std::vector<std::string> out;
-  const std::string unit = unitOf(document.path);
-  if (unit == document.path) return out;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(unit, error))
-    if (const std::string path = entry.path().generic_string();
-        path != document.path && entry.is_regular_file(error))
-      out.push_back(path);
-  std::sort(out.begin(), out.end());
-  return out;
 }
 
 } // namespace dotek::lsp

@@ -5,6 +5,7 @@
 #include "lsp/Index.h"
 #include "lsp/Places.h"
 
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
@@ -38,6 +39,7 @@ public:
   explicit Workspace(std::string scriptProgram);
 
   Units units = Units::Utf16;
+  bool showsDisabled = false; // the editor shows actions that cannot be made, with the reason
 
   // false: no file of this machine, which is not looked at.
   bool open(const std::string& uri, const std::string& language, std::int64_t version, std::string text);
@@ -58,9 +60,16 @@ public:
 
   // Names, symbols and hints of a document as it is now; kept until it changes.
   const Index& index(const Document& document);
-  // The same of a file that belongs to the document and is not open: of its cycle's folder.
-  std::vector<std::string> companions(const Document& document) const;
+  // The same of a file that may not be open; of such a file it is kept until the file changes.
   const Index& indexOf(const std::string& path);
+  // The other files of the document's cycle.
+  std::vector<std::string> companions(const Document& document) const;
+  // Files of this kind in the folder of the document, itself left out.
+  std::vector<std::string> beside(const Document& document, project::InputKind kind);
+  // Folders of GibbsCAM cycles beside the document and one folder up.
+  static std::vector<std::string> cycleFolders(const Document& document);
+  // The Prog that dotek.toml names for the document; "": none.
+  static std::string postOf(const Document& document);
 
   // Options that a command takes for inputs of this workspace.
   driver::CommonOptions options(const std::vector<std::string>& inputs) const;
@@ -83,6 +92,12 @@ private:
   std::map<std::string, std::set<std::string>> told_;     // by unit: paths that have findings
   std::map<std::string, std::vector<Found>> found_;       // by path
   std::map<std::string, std::unique_ptr<Index>> indices_; // by path
+  struct OnDisk {
+    std::filesystem::file_time_type time;
+    std::uintmax_t size = 0;
+    std::unique_ptr<Index> index;
+  };
+  std::map<std::string, OnDisk> onDisk_; // of files that are not open
 };
 
 } // namespace dotek::lsp

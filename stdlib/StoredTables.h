@@ -10,11 +10,13 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace dotek::stdlib {
 
 class DataFiles;
 struct DataFile;
+struct ListedWord;
 
 struct StoredTable {
   std::string_view name; // of the TOML file
@@ -45,6 +47,8 @@ struct TableStore {
   static GibbsKeywords readGibbs(const DataFiles& files);
   static ComPostKeywords readComPost(const DataFiles& files);
   static MacroSet readMacroSet(const DataFile& file);
+  static std::vector<ListedWord> listOf(const ComPostKeywords& keywords);
+  static std::vector<ListedWord> listOf(const GibbsKeywords& keywords);
   static Control readControl(const DataFiles& files, const DataFile& file);
 };
 
