@@ -1,4 +1,5 @@
 // What the editor offers to change: repairs, suppressions, layout.
+#include "driver/ProgramTools.h"
 #include "lint/Rule.h"
 #include "lsp/Server.h"
 
@@ -67,6 +68,45 @@ Json suppressionOf(const Workspace& workspace, const Document& document, const I
           {"edit", {{"changes", {{document.uri, {edit}}}}}}};
 }
 
+// Edits of whole lines that make the second text of the first. Both have the same lines.
+Json linesChanged(const Index& index, const SourceFile& made, Units units) {
+  Json out = Json::array();
+  const SourceFile& file = index.text();
+  for (std::uint32_t line = 1; line <= file.lineCount() && line <= made.lineCount(); ++line) {
+    if (file.line(line) == made.line(line)) continue;
+    const std::uint32_t begin = file.lineStart(line);
+    const SourceRange range{index.file, begin, begin + static_cast<std::uint32_t>(file.line(line).size())};
+    out.push_back({{"range", rangeOf(file, range, units)}, {"newText", index.utf8(made.line(line))}});
+  }
+  return out;
+}
+
+// New numbers for the blocks of a program of Macro B; null where it is not asked for or changes nothing. Not
+// while somebody types: it reads the whole file.
+Json renumbering(const Workspace& workspace, const Document& document, const Index& index,
+                 const Json& params) {
+  constexpr const char* kKind = "refactor.rewrite.dotek.renumber";
+  const Json context = params.value("context", Json::object());
+  const bool automatic = context.is_object() && context.value("triggerKind", 1) == 2;
+  if (index.kind != std::optional(InputKind::Nc) || automatic || !wantsKind(params, kKind)) return nullptr;
+  driver::RenumberCommandOptions options;
+  options.inputs = {document.path};
+  options.common = workspace.options(options.inputs);
+  const driver::Outcome outcome = driver::renumber(options);
+  Json action = {{"title", "Renumber the blocks: N10, N20, .."}, {"kind", kKind}};
+  if (outcome.files.empty()) {
+    if (!workspace.showsDisabled || outcome.diagnostics.all().empty()) return nullptr;
+    action["disabled"] = {{"reason", outcome.diagnostics.all().front().message}};
+    return action;
+  }
+  if (outcome.inputs.empty()) return nullptr; // they are numbered so
+  const SourceFile made("", outcome.files.front().text, index.encoding);
+  const Json edits = linesChanged(index, made, workspace.units);
+  if (edits.empty() || made.lineCount() != index.text().lineCount()) return nullptr;
+  action["edit"] = {{"changes", {{document.uri, edits}}}};
+  return action;
+}
+
 } // namespace
 
 Json codeActions(Workspace& workspace, const Json& params) {
@@ -102,6 +142,8 @@ Json codeActions(Workspace& workspace, const Json& params) {
          {"diagnostics", {one.diagnostic}},
          {"command", {{"title", "Explain"}, {"command", "dotek.explain"}, {"arguments", {one.code}}}}});
   }
+  if (Json action = renumbering(workspace, document, index, params); !action.is_null())
+    out.push_back(std::move(action));
   if (!safe.empty() && wantsKind(params, "source.fixAll.dotek"))
     out.push_back({{"title", "Make all safe repairs"},
                    {"kind", "source.fixAll.dotek"},

@@ -140,6 +140,9 @@ Json Server::initialize(const Json& params) {
   if (encodings.is_array())
     for (const Json& one : encodings)
       if (one == "utf-8") workspace_.units = Units::Utf8;
+  workspace_.showsDisabled =
+      objectAt(objectAt(objectAt(objectAt(params, "capabilities"), "textDocument"), "codeAction"),
+               "disabledSupport") == true;
   Json capabilities = {
       {"positionEncoding", workspace_.units == Units::Utf8 ? "utf-8" : "utf-16"},
       {"textDocumentSync", {{"openClose", true}, {"change", 2}, {"save", true}}},
@@ -152,7 +155,8 @@ Json Server::initialize(const Json& params) {
       {"inlayHintProvider", true},
       {"documentFormattingProvider", true},
       {"codeLensProvider", Json::object()},
-      {"codeActionProvider", {{"codeActionKinds", {"quickfix", "source.fixAll.dotek"}}}},
+      {"codeActionProvider",
+       {{"codeActionKinds", {"quickfix", "refactor.rewrite.dotek.renumber", "source.fixAll.dotek"}}}},
       {"completionProvider", {{"triggerCharacters", {"'", "#", " ", "."}}}},
       {"executeCommandProvider", {{"commands", commandNames()}}},
       {"experimental", {{"dotekRun", true}}},
