@@ -217,7 +217,7 @@ private:
         kept ? addText(inputName(options_.program), std::move(*kept), Encoding::Cp1250,
                        session_.options().encoding, session_.sources(), diagnostics())
              : session_.read(options_.program, Encoding::Cp1250);
-    if (!id) return outcomeOf(session_, "");
+    if (!id || !sim::isCall(world_->setup(), diagnostics())) return outcomeOf(session_, "");
     std::optional<ProgramLibrary> library =
         world_->setup().call.empty()
             ? ProgramLibrary::load(*id, options_.programs, *control_, session_)

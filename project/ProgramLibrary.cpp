@@ -285,8 +285,14 @@ void ProgramLibrary::add(ir::Program program, bool main, Session& session) {
   // The main program may lack a header, and nothing but it.
   if (!named && (!main || !programs_.empty() || program.body.empty())) return;
   const bool twice = program.number != 0 && !numbers_.insert(program.number).second;
-  if (twice) session.diagnostics().report<diag::ProgramTwice>(program.range, program.number);
-  if (!twice) programs_.push_back(std::move(program));
+  if (!twice) {
+    programs_.push_back(std::move(program));
+    return;
+  }
+  Diagnostic& finding = session.diagnostics().report<diag::ProgramTwice>(program.range, program.number);
+  const auto first = std::find_if(programs_.begin(), programs_.end(),
+                                  [&](const ir::Program& one) { return one.number == program.number; });
+  if (first != programs_.end()) finding.note(first->range, "the first one");
 }
 
 std::vector<const ir::Program*> ProgramLibrary::programs() const {

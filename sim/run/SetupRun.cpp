@@ -1,6 +1,7 @@
 #include "sim/run/SetupRun.h"
 
 #include "sim/machine/Trace.h"
+#include "stdlib/MacroSet.h"
 #include "support/Ascii.h"
 #include "support/Decimal.h"
 #include "support/messages/Commands.h"
@@ -94,6 +95,52 @@ bool startsWithinTravel(const Setup& setup, double probe, std::string_view saidB
     within = false;
   }
   return within;
+}
+
+bool isCall(const Setup& setup, Diagnostics& diagnostics) {
+  const std::string_view text = setup.call;
+  std::string meant;
+  bool slips = false, known = true;
+  int depth = 0; // of brackets
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    const char c = text[at];
+    if (c == '(') { // a comment
+      const std::size_t end = std::min(text.find(')', at), text.size() - 1);
+      meant += text.substr(at, end + 1 - at);
+      at = end;
+      continue;
+    }
+    depth += c == '[' ? 1 : c == ']' ? -1 : 0;
+    if (depth != 0 || (c != '=' && c != ',')) {
+      meant += c;
+      continue;
+    }
+    slips = true;
+    if (c == ',') {
+      if (at + 1 < text.size() && text[at + 1] != ' ') meant += ' ';
+      continue;
+    }
+    while (meant.ends_with(' '))
+      meant.pop_back();
+    std::size_t digits = meant.size();
+    while (digits > 0 && isDigit(meant[digits - 1]))
+      --digits;
+    if (digits == 0 || digits == meant.size() || meant[digits - 1] != '#') continue; // D=25.
+    const char letter =
+        meant.size() - digits <= 2
+            ? stdlib::letterOfLocal(static_cast<std::uint32_t>(std::stoul(meant.substr(digits))))
+            : '\0';
+    known = known && letter != 0;
+    meant.erase(digits - 1);
+    meant += letter;
+  }
+  if (!slips) return true;
+  diagnostics.report<diag::SetupFlag>(
+      {}, "--call",
+      "arguments are letters with their values, without `=` and `,`" +
+          (known ? fmt::format("; write `--call \"{}\"`", meant)
+                 : std::string(", and no letter sets some of these variables")));
+  return false;
 }
 
 std::string callingProgram(const Setup& setup, std::uint64_t number, const Machine& machine,

@@ -36,6 +36,10 @@ std::optional<Position> startOf(const Setup& setup, const Machine& machine, doub
 bool startsWithinTravel(const Setup& setup, double probe, std::string_view saidBy, bool leftOut,
                         const MachineLimits& limits, const Machine& machine, Diagnostics& diagnostics);
 
+// Whether the arguments of `setup.call` are letters with their values, as a block has them; false: reported,
+// with what was meant.
+bool isCall(const Setup& setup, Diagnostics& diagnostics);
+
 // A main program that calls O`number` with the arguments of `setup.call`. Where the setup names a tool its
 // length is in force (G43), and the machine stays where it is.
 std::string callingProgram(const Setup& setup, std::uint64_t number, const Machine& machine,

@@ -4,11 +4,13 @@
 #include "sim/machine/Arguments.h"
 #include "sim/machine/Machine.h"
 #include "stdlib/ReadCall.h"
+#include "support/Ascii.h"
 #include "support/Files.h"
 #include "support/messages/Commands.h"
 #include "support/messages/Sim.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
@@ -34,19 +36,28 @@ std::set<std::uint32_t> missing(const ProgramLibrary& library) {
   return out;
 }
 
+// By its name it was put aside before a change.
+bool isCopy(const std::string& name) {
+  const std::string upper = upperCase(name);
+  constexpr std::array<std::string_view, 5> kEnds = {".BAK", ".OLD", ".ORG", ".ORIG", "~"};
+  return std::any_of(kEnds.begin(), kEnds.end(), [&](std::string_view end) { return upper.ends_with(end); });
+}
+
 // A program of the user's own lies beside the one that calls its number, and the meaning of a set runs.
 void noteOwnPrograms(const std::set<std::uint32_t>& called, const std::vector<const stdlib::MacroSet*>& sets,
                      const ProgramLibrary& library, Session& session) {
   namespace fs = std::filesystem;
   const fs::path main(library.mainPath());
   const fs::path folder = main.has_parent_path() ? main.parent_path() : fs::path(".");
-  std::map<std::uint64_t, std::string> beside;
+  std::map<std::uint64_t, std::pair<bool, std::string>> beside; // a name that is no copy's first
   std::error_code error;
   for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
     const std::string name = at->path().filename().string();
     const std::uint64_t number = project::numberOfName(name);
-    if (number > 0 && name != main.filename())
-      beside.emplace(number, (folder / name).lexically_normal().string());
+    if (number == 0 || name == main.filename()) continue;
+    std::pair<bool, std::string> found{isCopy(name), (folder / name).lexically_normal().string()};
+    const auto [known, isNew] = beside.try_emplace(number, found);
+    if (!isNew) known->second = std::min(known->second, found);
   }
   for (const std::uint32_t program : called) {
     const auto own = beside.find(program);
@@ -54,7 +65,7 @@ void noteOwnPrograms(const std::set<std::uint32_t>& called, const std::vector<co
     const auto set = std::find_if(sets.begin(), sets.end(),
                                   [&](const stdlib::MacroSet* one) { return one->calls(program); });
     if (set != sets.end())
-      session.diagnostics().report<diag::OwnProgramBeside>({}, program, (*set)->title, own->second,
+      session.diagnostics().report<diag::OwnProgramBeside>({}, program, (*set)->title, own->second.second,
                                                            folder.lexically_normal().string());
   }
 }

@@ -144,3 +144,39 @@ TEST_CASE("sim command: a loop reports what each round meets no more than three 
   const CommandResult lost = runDotek({"sim", "length.nc", "--tool", "1", "--length", "100"}, folder.path());
   CHECK_MESSAGE(lost.err.find("Z is lost since `G43` in line 2") != std::string::npos, lost.err);
 }
+
+TEST_CASE("sim command: arguments of --call with signs between them are shown as they are written") {
+  const DataFolder folder;
+  folder.write("keep.nc", "O9031\nIF[#7EQ#0]THEN#3000=1(D MISSING)\n#100=#7+#19\nM99\n");
+  const auto err = [&](std::string_view call) {
+    return runDotek({"sim", "keep.nc", "--quiet", "--call", std::string(call)}, folder.path()).err;
+  };
+  for (const std::string_view slip :
+       {"D=25. S=54", "D25., S54", "D25.,S54", "#7=25. #19=54", "G65 P9031 D=25. S54"}) {
+    CAPTURE(slip);
+    const std::string told = err(slip);
+    CHECK_MESSAGE(told.find("[setup-flag]") != std::string::npos, told);
+    const bool shown = told.find("`--call \"D25. S54\"`") != std::string::npos ||
+                       told.find("`--call \"G65 P9031 D25. S54\"`") != std::string::npos;
+    CHECK_MESSAGE(shown, told);
+  }
+  // Within brackets and comments they mean something else, or nothing.
+  CHECK(err("D[ATAN[1.,2.]] S54 (A=1, B)").find("setup-flag") == std::string::npos);
+  CHECK(err("D25. S54").empty());
+  CHECK(err("#31=2").find("write") == std::string::npos); // no letter sets #31
+}
+
+TEST_CASE("sim command: a copy of a program, and which of several lies beside") {
+  const DataFolder folder;
+  const std::string own = "O9811\nM99\n";
+  folder.write("main.nc", "O0012\nG65 P9811 Z0.\nM30\n");
+  for (const char* name : {"O9811.BAK", "O9811.nc", "O9811.old", "O9811.nc~"})
+    folder.write(name, own);
+  const std::string beside = runDotek({"sim", "main.nc", "--quiet"}, folder.path()).err;
+  CHECK_MESSAGE(beside.find("`O9811.nc`, which lies beside") != std::string::npos, beside);
+  folder.write("O9811", own);
+  const std::string bare = runDotek({"sim", "main.nc", "--quiet"}, folder.path()).err;
+  CHECK_MESSAGE(bare.find("`O9811`, which lies beside") != std::string::npos, bare);
+  const std::string twice = runDotek({"sim", "main.nc", "--programs", ".", "--quiet"}, folder.path()).err;
+  CHECK_MESSAGE(twice.find("note: the first one") != std::string::npos, twice);
+}
