@@ -263,9 +263,16 @@ std::string mistakeOf(const CLI::ParseError& error, const CLI::App& app,
     for (const std::string& one : option->get_lnames())
       flags.push_back("--" + one);
   }
+  const bool hasFormats = std::find(flags.begin(), flags.end(), "--format") != flags.end();
   for (const std::string& argument : arguments) {
     const std::string flag = argument.substr(0, argument.find('='));
     if (argument == "--") break;
+    const bool isPage = flag == "-o" || flag == "--html" || flag == "--output" || flag == "--out";
+    if (hasFormats && isPage)
+      return fmt::format(
+          "`dotek {0}` has no flag `{1}`; it prints what it finds: `dotek {0} .. --format html > "
+          "page.html` makes a page",
+          name, flag);
     if (!flag.starts_with("--") || std::find(flags.begin(), flags.end(), flag) != flags.end()) continue;
     const std::string near = nearestName(flag, flags);
     return fmt::format("`dotek {}` has no flag `{}`{}{}", name, flag,

@@ -1,11 +1,14 @@
 #include "sim/geometry/PartFile.h"
 
 #include "stdlib/Toml.h"
+#include "support/Ascii.h"
 #include "support/Files.h"
 #include "support/messages/Commands.h"
 #include "support/messages/Common.h"
 #include "support/messages/Part.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -293,8 +296,36 @@ std::string folderOf(const std::string& path) {
   return slash == std::string::npos ? "" : path.substr(0, slash + 1);
 }
 
+namespace {
+
+// Models that somebody takes for a part file: what to do instead; "": it is none by its name.
+std::string modelAdvice(const std::string& path) {
+  const std::size_t point = path.rfind('.');
+  const std::string end = point == std::string::npos ? "" : upperCase(std::string_view(path).substr(point));
+  const std::string name = path.substr(folderOf(path).size());
+  constexpr std::array<std::string_view, 8> kModels = {".STEP", ".STP", ".IGES", ".IGS",
+                                                       ".3MF",  ".OBJ", ".DXF",  ".X_T"};
+  if (end == ".STL")
+    return fmt::format(
+        "`{0}` is a mesh, and a part is a TOML file that names it: beside it, part.toml with the lines "
+        "`schema = 1`, `[[shape]]`, `kind = \"mesh\"`, `file = \"{0}\"`, `unit = \"mm\"`",
+        name);
+  if (std::find(kModels.begin(), kModels.end(), end) != kModels.end())
+    return fmt::format(
+        "`{}` is a model that Dotek does not read; export it as STL, which a part file (TOML) names, or "
+        "describe it by its shapes",
+        name);
+  return "";
+}
+
+} // namespace
+
 std::optional<PartFile> loadPart(const std::string& path, const Limits& limits, const ReadBounds& bounds,
                                  SourceMap& sources, Diagnostics& diagnostics) {
+  if (const std::string advice = modelAdvice(path); !advice.empty()) {
+    diagnostics.report<diag::PartRefused>({}, advice);
+    return std::nullopt;
+  }
   const std::optional<FileId> id = readText(path, Encoding::Utf8, std::nullopt, limits, sources, diagnostics);
   if (!id) return std::nullopt;
   const auto readMesh = [&](const std::string& name, SourceRange where) -> std::optional<std::string> {

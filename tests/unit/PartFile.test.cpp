@@ -376,3 +376,15 @@ TEST_CASE("mesh: a file on disk is read below the folder of the part, or where t
   REQUIRE(mkfifo((at + "/jobs/own/pipe.stl").c_str(), 0600) == 0);
   CHECK(load("pipe.stl", own).find("it is no regular file") != std::string::npos);
 }
+
+TEST_CASE("part file: a model in its place") {
+  const auto told = [](const std::string& path) {
+    SourceMap sources;
+    Diagnostics diagnostics;
+    CHECK(!loadPart(path, {}, {}, sources, diagnostics));
+    return findingsOf(diagnostics, sources);
+  };
+  CHECK(told("models/Flange.STL").find("`file = \"Flange.STL\"`") != std::string::npos);
+  CHECK(told("flange.stp").find("export it as STL") != std::string::npos);
+  CHECK(told("flange.toml").starts_with("0:0 file-not-found"));
+}
