@@ -3,6 +3,7 @@
 #include "project/Foreign.h"
 #include "project/PostShape.h"
 #include "support/Files.h"
+#include "support/WholeName.h"
 #include "support/messages/Commands.h"
 #include "support/messages/Common.h"
 #include "support/messages/Cycle.h"
@@ -18,14 +19,26 @@ bool refusesStream(const std::string& path, SourceRange where, Session& session)
   return true;
 }
 
+namespace {
+
+// As far as recognise() looks: what an editor holds, else what is in the file.
+std::optional<std::string> beginningOf(const std::string& path, const Session& session) {
+  if (isStream(path)) return std::nullopt;
+  if (const auto& held = session.options().buffers)
+    if (const auto at = held->find(wholeName(path)); at != held->end())
+      return at->second.substr(0, kRecognisedBytes);
+  Diagnostics ignored;
+  return readBeginning(path, kRecognisedBytes, ignored);
+}
+
+} // namespace
+
 void reportNoInput(const std::string& path, const Recognition& found, Session& session) {
   if (isPost(found)) {
     session.diagnostics().report<diag::PostNotTaken>({}, inputName(path));
     return;
   }
-  Diagnostics ignored;
-  const std::optional<std::string> text =
-      isStream(path) ? std::nullopt : readBeginning(path, kRecognisedBytes, ignored);
+  const std::optional<std::string> text = beginningOf(path, session);
   const std::optional<Foreign> foreign = text ? foreignLanguage(*text) : std::nullopt;
   if (!foreign)
     session.diagnostics().report<diag::UnknownKind>({}, inputName(path), otherwise(found));
