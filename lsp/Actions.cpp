@@ -26,8 +26,9 @@ Json editOf(const Workspace& workspace, const std::map<std::string, Json>& edits
 }
 
 // The comment that suppresses a code in a text of this kind.
-std::string suppression(InputKind kind, const std::string& code) {
-  switch (kind) {
+std::string suppression(const Index& index, const std::string& code) {
+  if (index.post) return " // dotek: ignore " + code;
+  switch (*index.kind) {
   case InputKind::Prog: return " { dotek: ignore " + code + " }";
   case InputKind::Nc: {
     std::string capitals = code;
@@ -61,7 +62,7 @@ Json suppressionOf(const Workspace& workspace, const Document& document, const I
   const auto end = file.lineStart(line) + static_cast<std::uint32_t>(file.line(line).size());
   const Json place = positionOf(file, end, workspace.units);
   const Json edit = {{"range", {{"start", place}, {"end", place}}},
-                     {"newText", suppression(*index.kind, one.code)}};
+                     {"newText", suppression(index, one.code)}};
   return {{"title", "Ignore " + one.code + " in this line"},
           {"kind", "quickfix"},
           {"diagnostics", {one.diagnostic}},

@@ -33,6 +33,7 @@ std::vector<Proposal> completeMacroB(const Typing& typing);
 std::vector<Proposal> completeCycle(const Typing& typing);
 std::vector<Proposal> completeComPost(const Typing& typing);
 std::vector<Proposal> completeGibbs(const Typing& typing);
+std::vector<Proposal> completePost(const Typing& typing);
 std::vector<Proposal> completeMikroprog(const Typing& typing);
 
 // Names of the index with this beginning of their keys, each once.

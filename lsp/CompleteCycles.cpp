@@ -3,6 +3,7 @@
 #include "frontend/cycle/Words.h"
 #include "lsp/Complete.h"
 #include "project/CycleFiles.h"
+#include "stdlib/FusionNames.h"
 #include "stdlib/KeywordLists.h"
 #include "support/Ascii.h"
 
@@ -196,6 +197,39 @@ std::vector<Proposal> completeComPost(const Typing& typing) {
   out = named(typing.index, "routine ", kFunction);
   for (const stdlib::ListedWord& one : stdlib::listOf(typing.session.compostKeywords()))
     out.push_back({one.argument ? one.name + "('" : one.name, one.detail, "", kKeyword});
+  return out;
+}
+
+std::vector<Proposal> completePost(const Typing& typing) {
+  std::vector<Proposal> out;
+  const std::string& before = typing.before;
+  const std::string_view ahead = std::string_view(before).substr(0, before.size() - lastWord(before).size());
+  const bool quoted = ahead.ends_with("Property(\"") || ahead.ends_with("Property('");
+  if (quoted || ahead.ends_with("properties.")) {
+    for (const Symbol& symbol : typing.index.symbols)
+      if (symbol.name == "properties")
+        for (const Symbol& one : symbol.children)
+          out.push_back({one.name, one.detail, "", kField});
+    return out;
+  }
+  if (ahead.ends_with('.') || ahead.ends_with('"')) return out;
+  for (const Symbol& symbol : typing.index.symbols)
+    out.push_back(
+        {symbol.name, symbol.detail, "", symbol.kind == SymbolKind::Function ? kFunction : kVariable});
+  addNew(out, named(typing.index, "js ", kVariable));
+  const stdlib::FusionNames names = stdlib::FusionNames::load(typing.session.data());
+  const auto add = [&](const auto& list, const char* detail, int icon) {
+    std::vector<Proposal> more;
+    for (const std::string& name : list)
+      more.push_back({name, detail, "", icon});
+    addNew(out, std::move(more));
+  };
+  add(names.functions, "function of the engine", kFunction);
+  add(names.entries, "called by the engine", kFunction);
+  add(names.variables, "known to the engine", kVariable);
+  add(names.classes, "class of the engine", kVariable);
+  for (const stdlib::FusionNames::Family& family : names.families)
+    add(family.names, "constant of the engine", kValue);
   return out;
 }
 

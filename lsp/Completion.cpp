@@ -28,6 +28,7 @@ std::vector<Proposal> named(const Index& index, const std::string& kind, int ico
 namespace {
 
 std::vector<Proposal> proposals(const Typing& typing) {
+  if (typing.index.post) return completePost(typing);
   switch (*typing.index.kind) {
   case project::InputKind::Nc: return completeMacroB(typing);
   case project::InputKind::Prog: return completeComPost(typing);
@@ -46,7 +47,7 @@ Json completion(Workspace& workspace, const Json& params) {
   const Document& document = documentOf(workspace, params);
   const Index& index = workspace.index(document);
   Json items = Json::array();
-  if (index.kind && index.file != kNoFile) {
+  if (index.isRead()) {
     const std::uint32_t offset = placeOf(workspace, index, params);
     const SourceFile& file = index.text();
     const std::uint32_t start = file.lineStart(file.lineOf(offset));

@@ -1,5 +1,6 @@
 #include "lsp/Index.h"
 
+#include "project/PostShape.h"
 #include "project/Session.h"
 #include "project/Settings.h"
 
@@ -22,6 +23,18 @@ void sortByPlace(Index& index) {
   };
   std::stable_sort(index.occurrences.begin(), index.occurrences.end(), before);
   std::stable_sort(index.facts.begin(), index.facts.end(), before);
+}
+
+void indexByKind(Index& index, project::Session& session, const std::string& path) {
+  switch (*index.kind) {
+  case project::InputKind::Nc: indexMacroB(index, session, path); break;
+  case project::InputKind::Prog: indexComPost(index, session); break;
+  case project::InputKind::Macro:
+  case project::InputKind::Dialog:
+  case project::InputKind::DefineData: indexGibbs(index, session, path); break;
+  case project::InputKind::Cycle: indexCycle(index, session, path); break;
+  case project::InputKind::Suf: indexMikroprog(index, session, path); break;
+  }
 }
 
 } // namespace
@@ -48,21 +61,18 @@ Index makeIndex(const std::string& path, const project::CommonOptions& options) 
   project::Session session(options);
   Diagnostics unheard;
   const project::Recognition* const found = session.kindOf(path, unheard);
-  if (found == nullptr || !found->kind) return out;
+  if (found == nullptr || !(found->kind || project::isPost(*found))) return out;
   out.kind = found->kind;
-  const std::optional<FileId> file = session.read(path, encodingOf(*found->kind));
+  out.post = !found->kind;
+  const std::optional<FileId> file =
+      session.read(path, out.post ? Encoding::Cp1250 : encodingOf(*found->kind));
   if (!file) return out;
   out.file = *file;
   out.encoding = session.sources().file(*file).encoding();
-  switch (*found->kind) {
-  case project::InputKind::Nc: indexMacroB(out, session, path); break;
-  case project::InputKind::Prog: indexComPost(out, session); break;
-  case project::InputKind::Macro:
-  case project::InputKind::Dialog:
-  case project::InputKind::DefineData: indexGibbs(out, session, path); break;
-  case project::InputKind::Cycle: indexCycle(out, session, path); break;
-  case project::InputKind::Suf: indexMikroprog(out, session, path); break;
-  }
+  if (out.post)
+    indexPost(out, session);
+  else
+    indexByKind(out, session, path);
   sortByPlace(out);
   out.sources = std::move(session.sources());
   return out;

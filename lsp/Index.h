@@ -60,6 +60,7 @@ struct Hint {
 
 struct Index {
   std::optional<project::InputKind> kind;
+  bool post = false; // of Fusion, which is of no kind
   SourceMap sources;
   FileId file = kNoFile; // kNoFile: it cannot be read
   Encoding encoding = Encoding::Utf8;
@@ -78,6 +79,8 @@ struct Index {
 
   const SourceFile& text() const { return sources.file(file); }
   const Occurrence* at(std::uint32_t offset) const; // nullptr: no name is there
+  // Dotek reads the text.
+  bool isRead() const { return file != kNoFile && (kind || post); }
   std::size_t programAt(std::uint32_t offset) const;
   std::string utf8(std::string_view bytes) const { return toUtf8(bytes, encoding); } // of this text
 };
@@ -89,6 +92,7 @@ Index makeIndex(const std::string& path, const project::CommonOptions& options);
 void indexMacroB(Index& index, project::Session& session, const std::string& path);
 void indexGibbs(Index& index, project::Session& session, const std::string& path);
 void indexComPost(Index& index, project::Session& session);
+void indexPost(Index& index, project::Session& session);
 void indexCycle(Index& index, project::Session& session, const std::string& path);
 void indexMikroprog(Index& index, project::Session& session, const std::string& path);
 

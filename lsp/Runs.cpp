@@ -1,6 +1,7 @@
 // Commands of Dotek on what is open: their results, which an editor shows beside the text, and the lenses
 // that start them.
 #include "driver/Preview.h"
+#include "driver/RunPost.h"
 #include "lsp/Server.h"
 #include "project/Settings.h"
 #include "support/Ascii.h"
@@ -32,7 +33,7 @@ struct Missing {
 // What is asked of a command.
 struct Asked {
   const Document* document = nullptr;
-  InputKind kind = InputKind::Nc;
+  bool post = false;
   std::string input; // the document, or the folder of its cycle
   std::string target;
   bool page = false; // HTML; else text
@@ -156,7 +157,18 @@ Json convert(Asked& asked) {
   return shown(asked, outcome, {options.to + " program", languageOf(name), outcome.output});
 }
 
+// A post of Fusion on the operations that `run-post --matrix` has.
+Json runPost(Asked& asked) {
+  driver::RunPostOptions options;
+  options.post = asked.document->path;
+  options.matrix = asked.target.empty() ? "drilling" : asked.target;
+  options.common = asked.common;
+  const driver::Outcome outcome = driver::runPost(options);
+  return shown(asked, outcome, {"program of the post", "dotek-macrob", outcome.output});
+}
+
 Json run(Asked& asked) {
+  if (asked.post) return runPost(asked);
   driver::SimOptions options;
   options.program = asked.document->path;
   options.common = asked.common;
@@ -220,11 +232,11 @@ Asked askedOf(Workspace& workspace, const Json& params, const NamedCommand& comm
   Asked out;
   out.document = &documentOf(workspace, params);
   const Index& index = workspace.index(*out.document);
-  if (!index.kind) throw Refusal{kRequestFailed, "the text is in no language that Dotek reads"};
-  out.kind = *index.kind;
+  if (!index.isRead()) throw Refusal{kRequestFailed, "the text is in no language that Dotek reads"};
+  out.post = index.post;
   out.input = Workspace::unitOf(out.document->path);
   out.target = wordOf(params, "target", "");
-  const std::string format = wordOf(params, "format", command.page ? "html" : "text");
+  const std::string format = wordOf(params, "format", command.page && !index.post ? "html" : "text");
   if (format != "html" && format != "text") throw Refusal{kInvalidParams, "`format` is `html` or `text`"};
   out.page = format == "html";
   out.common = workspace.options({out.input});
@@ -287,7 +299,7 @@ Json codeLenses(Workspace& workspace, const Json& params) {
   const Document& document = documentOf(workspace, params);
   const Index& index = workspace.index(document);
   Json out = Json::array();
-  if (!index.kind || index.file == kNoFile) return out;
+  if (!index.isRead()) return out;
   const Json start = {{"line", 0}, {"character", 0}};
   std::string values; // that a run does not go without
   for (const std::string& name : index.needed)
@@ -297,6 +309,10 @@ Json codeLenses(Workspace& workspace, const Json& params) {
     out.push_back({{"range", {{"start", start}, {"end", start}}},
                    {"command", {{"title", title}, {"command", command}, {"arguments", {document.uri}}}}});
   };
+  if (index.post) {
+    add("run", "dotek.run");
+    return out;
+  }
   const bool folder = Workspace::unitOf(document.path) != document.path;
   const bool cycle = *index.kind == InputKind::Cycle, program = *index.kind == InputKind::Nc;
   if (folder && project::flagDefaultsOf({Workspace::unitOf(document.path)}).prog) add("post", "dotek.post");

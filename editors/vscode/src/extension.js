@@ -45,7 +45,7 @@ async function start() {
   const command = vscode.workspace.getConfiguration("dotek").get("path") || "dotek";
   const run = { command, args: ["lsp"], transport: TransportKind.stdio };
   client = new LanguageClient("dotek", "Dotek", { run, debug: run }, {
-    documentSelector: languages.map((language) => ({ scheme: "file", language })),
+    documentSelector: [...languages.map((language) => ({ scheme: "file", language })), { scheme: "file", pattern: "**/*.cps" }],
     synchronize: { fileEvents: vscode.workspace.createFileSystemWatcher("**/dotek.toml") },
     middleware: {
       executeCommand: async (name, args, next) => {
