@@ -399,8 +399,11 @@ int runCommand(Arguments& arguments, std::ostream& out, std::ostream& err) {
     return printer.findings(shown(arguments, options, driver::lint), arguments);
   }
   case Command::Dump:
-    return printer.result(driver::dump({arguments.inputs, arguments.stage, arguments.common, arguments.source,
-                                        arguments.convert.control}),
+    return printer.result(shown(arguments,
+                                [&](Progress&) {
+                                  return driver::dump({arguments.inputs, arguments.stage, arguments.common,
+                                                       arguments.source, arguments.convert.control});
+                                }),
                           arguments);
   case Command::Sim:
     arguments.sim.program = arguments.inputs.empty() ? "" : arguments.inputs.front();
@@ -440,9 +443,17 @@ int runCommand(Arguments& arguments, std::ostream& out, std::ostream& err) {
                                 }),
                           arguments);
   case Command::Doc:
-    return printer.catalogue(driver::catalogue({arguments.inputs, arguments.common}), arguments);
+    return printer.catalogue(shown(arguments,
+                                   [&](Progress&) {
+                                     return driver::catalogue({arguments.inputs, arguments.common});
+                                   }),
+                             arguments);
   case Command::Preview:
-    return printer.result(driver::preview({arguments.inputs, arguments.common}), arguments);
+    return printer.result(shown(arguments,
+                                [&](Progress&) {
+                                  return driver::preview({arguments.inputs, arguments.common});
+                                }),
+                          arguments);
   case Command::Lsp: return lsp::serve(STDIN_FILENO, STDOUT_FILENO, runningProgram(), err);
   case Command::List:
     if (arguments.inputs.size() > 1)
@@ -450,12 +461,18 @@ int runCommand(Arguments& arguments, std::ostream& out, std::ostream& err) {
                             arguments);
     return printer.result(driver::list(arguments.inputs.front(), arguments.common), arguments);
   case Command::Outline:
-    return printer.result(driver::outline({arguments.inputs, arguments.common, arguments.json}), arguments);
+    return printer.result(
+        shown(arguments,
+              [&](Progress&) {
+                return driver::outline({arguments.inputs, arguments.common, arguments.json});
+              }),
+        arguments);
   case Command::Renumber:
     arguments.renumber.inputs = arguments.inputs;
     arguments.renumber.common = arguments.common;
     arguments.write = arguments.output.empty();
-    return printer.layout(driver::renumber(arguments.renumber), arguments);
+    return printer.layout(shown(arguments, [&](Progress&) { return driver::renumber(arguments.renumber); }),
+                          arguments);
   case Command::Flatten:
     arguments.sim.program = arguments.inputs.empty() ? "" : arguments.inputs.front();
     arguments.sim.common = arguments.common;
