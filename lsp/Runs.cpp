@@ -219,7 +219,7 @@ Json preview(Asked& asked) {
 
 struct NamedCommand {
   const char* name;
-  bool page; // what it gives where nobody says
+  bool page; // a page where the request names no format
   Json (*call)(Asked& asked);
 };
 constexpr std::array kCommands = {

@@ -44,6 +44,8 @@ const hints = await connection.sendRequest("textDocument/inlayHint", { textDocum
 check(hints.length === 2, "hints");
 const run = await connection.sendRequest("workspace/executeCommand", { command: "dotek.explain", arguments: ["goto-target-missing"] });
 check(run.language === "markdown" && run.text.length > 100, "explain");
+const page = await connection.sendRequest("dotek/run", { command: "run", textDocument: { uri } });
+check(page.language === "html" && /<html/.test(page.text) && Array.isArray(page.missing), "the page of a run");
 let refused = false;
 await connection.sendRequest("textDocument/noSuch", {}).catch(() => (refused = true));
 check(refused, "an unknown method");
