@@ -215,33 +215,10 @@ void Run::noteWritten(std::uint32_t cell) {
   if (cell < lastWrites_.size()) lastWrites_[cell] = place_;
 }
 
-SourceRange Run::lastWrite(std::uint32_t number) const {
-  const std::uint32_t cell = machine_.layout().cellOf(number);
-  if (cell >= lastWrites_.size() || lastWrites_[cell] == kNoCell) return {};
-  return code_.statementOf(lastWrites_[cell]).origin.range();
-}
-
-void Run::noteUnset(std::uint32_t number) {
-  if (unset_.erase(number) != 0) unsetReads_.push_back({code_.statementOf(place_).origin.range(), number});
-}
-
 void Run::noteUnsetCell(std::uint32_t cell) {
   const CellLayout& layout = machine_.layout();
   if (cell <= layout.locals() || cell >= layout.size() || !isFresh(cells_[cell])) return;
   noteUnset(layout.numberOf(cell));
-}
-
-void Run::tellRead(std::uint32_t number, double value) {
-  const std::uint32_t cell = machine_.layout().cellOf(number);
-  if (cell != CellLayout::kNone)
-    tellMeasured(cell);
-  else if (number != 0)
-    listener_->systemRead(number, value);
-}
-
-void Run::tellMeasured(std::uint32_t cell) {
-  if (!measured_.empty() && measured_.contains(cell))
-    listener_->measuredRead(machine_.layout().numberOf(cell), cells_[cell]);
 }
 
 // Before the instruction is carried out; what is read from a number that is computed follows in readAt().
@@ -249,21 +226,6 @@ void Run::followMeasured(const Instruction& at, unsigned operands) {
   if ((operands & 1) != 0) tellMeasured(at.a);
   if ((operands & 2) != 0) tellMeasured(at.b);
   if (setsCell(at.op)) measured_.erase(at.c);
-}
-
-void Run::takeMeasured() {
-  for (const std::uint32_t number : machine_.takeMeasured()) {
-    noteWritten(machine_.layout().cellOf(number));
-    if (listener_ == nullptr) continue;
-    const std::uint32_t cell = machine_.layout().cellOf(number);
-    if (cell != CellLayout::kNone && cell > machine_.layout().locals()) measured_.insert(cell);
-    listener_->measuredWritten(number);
-  }
-}
-
-void Run::tellWritten(std::uint32_t number, double value) {
-  if (machine_.layout().cellOf(number) == CellLayout::kNone)
-    listener_->systemWritten(number, nullAsZero(value));
 }
 
 bool Run::fail(ArithmeticError error, bool tangent, bool bits) {
@@ -278,12 +240,6 @@ bool Run::fail(ArithmeticError error, bool tangent, bool bits) {
   case ArithmeticError::NoValue: break;
   }
   return refuse("what this computes is not known to Dotek");
-}
-
-void Run::noteWrite(std::uint32_t number) {
-  if (readEarly_[place_] || !machine_.movesPositions(number)) return;
-  readEarly_[place_] = true;
-  earlyWrites_.push_back({code_.statementOf(place_).origin.range(), number});
 }
 
 bool Run::readAt(double number, double& value) {

@@ -1,3 +1,4 @@
+#include "sim/picture/Lattice.h"
 #include "sim/picture/Picture.h"
 #include "sim/picture/PicturePage.h"
 #include "sim/picture/PicturePlanes.h"
@@ -112,6 +113,7 @@ private:
     if (!picture_.part) note("no part: only the path is drawn");
     if (picture_.setter) note("tool setter at machine " + pointText(picture_.setter->at, picture_.decimals));
     if (const std::string cut = cutNote(picture_, region_); !cut.empty()) note(cut);
+    if (const std::string missed = missedNote(mesh_.missed); !missed.empty()) note(missed);
     return out;
   }
 
@@ -144,7 +146,7 @@ private:
     return out;
   }
 
-  std::string data() const {
+  std::string data() {
     const Probe& probe = picture_.probe;
     const auto size = [](double value) {
       return std::isfinite(value) && value > 0 && value < kDrawn ? value : 0;
@@ -281,12 +283,12 @@ private:
     out += "],\n";
   }
 
-  void surface(std::string& out) const {
-    SurfaceMesh mesh;
+  void surface(std::string& out) {
     const double longest = std::max({region_.most.x - region_.least.x, region_.most.y - region_.least.y,
                                      region_.most.z - region_.least.z});
     // A part that is large for what was measured is drawn finer.
-    if (picture_.part) mesh = surfaceOf(*picture_.part, region_, longest > 150 ? 160 : 112);
+    if (picture_.part) mesh_ = surfaceOf(*picture_.part, region_, longest > 150 ? 160 : 112);
+    const SurfaceMesh& mesh = mesh_;
     const double unit = std::max(kMeshUnit, std::pow(10, std::ceil(std::log10(longest)) - 6));
     out += fmt::format("\"open\":{},\n", cutSidesOf(picture_, region_).empty() ? "false" : "true");
     out += fmt::format("\"mesh\":{{\"unit\":{},\n\"vertices\":[", number(unit));
@@ -305,6 +307,7 @@ private:
 
   const Picture& picture_;
   Region region_;
+  SurfaceMesh mesh_;
   std::size_t every_ = 1;
   std::vector<std::size_t> chosen_; // places in Picture::moves
   std::vector<std::size_t> place_;  // of each move in chosen_, of the next one that is there

@@ -1,3 +1,4 @@
+#include "sim/picture/Lattice.h"
 #include "sim/picture/Picture.h"
 #include "sim/picture/PicturePlanes.h"
 #include "sim/picture/PictureReport.h"
@@ -76,7 +77,7 @@ void addScale(Legend& legend, double scale) {
 }
 
 // What the picture leaves out.
-std::vector<std::string> notesOf(const Picture& picture, const Region& region) {
+std::vector<std::string> notesOf(const Picture& picture, const Region& region, const SectionPlanes& planes) {
   std::vector<std::string> out;
   std::size_t lost = 0, beyond = 0, hidden = 0;
   for (const PictureMove& move : picture.moves) {
@@ -94,6 +95,12 @@ std::vector<std::string> notesOf(const Picture& picture, const Region& region) {
     hidden += isDrawn(error.at) ? 0 : 1;
   if (const std::string cut = cutNote(picture, region); !cut.empty())
     for (const std::string& line : wrapped(cut, 60))
+      out.push_back(line);
+  double missed = 0;
+  for (std::size_t axis = 0; picture.part && axis < 3; ++axis)
+    missed = std::max(missed, sectionLattice(*picture.part, axis, planes.at[axis], region).missed);
+  if (missed > 0)
+    for (const std::string& line : wrapped(missedNote(missed), 60))
       out.push_back(line);
   if (beyond > 0) out.push_back(fmt::format("the path leaves the picture in {}", plural(beyond, "move")));
   if (lost > 0) out.push_back(fmt::format("{} not drawn: no number, or beyond 1 km", plural(lost, "move")));
@@ -208,7 +215,7 @@ std::string drawLegend(const Sheet& sheet, double left, double top, double& bott
     for (const std::string& line : zeroLines(*zero, picture.decimals))
       legend.text(line, 0, kWorkColour);
   }
-  for (const std::string& note : notesOf(picture, sheet.region))
+  for (const std::string& note : notesOf(picture, sheet.region, sheet.planes))
     legend.text(note, 0, "#8a4b00");
   bottom = legend.at();
   return legend.take();

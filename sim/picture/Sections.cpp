@@ -1,11 +1,12 @@
 #include "sim/picture/Sections.h"
 
-#include "sim/geometry/Solid.h"
+#include "sim/picture/Lattice.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <unordered_map>
+#include <utility>
 
 namespace dotek::sim {
 namespace {
@@ -25,12 +26,12 @@ public:
       : part_(part), across_(across), axes_(planeAxes(across)), at_(at) {
     const double width = coordinate(region.most, axes_[0]) - coordinate(region.least, axes_[0]);
     const double height = coordinate(region.most, axes_[1]) - coordinate(region.least, axes_[1]);
-    const Solid& solid = part.solid();
-    const double cells = solid.shapes.size() > 60 || !solid.meshes.empty() ? 160 : 256;
-    step_ = std::max(width, height) / cells;
     tolerance_ = std::max(width, height) / 20'000;
-    columns_ = static_cast<std::uint32_t>(std::max(1.0, std::ceil(width / step_ - 1e-9))) + 3;
-    rows_ = static_cast<std::uint32_t>(std::max(1.0, std::ceil(height / step_ - 1e-9))) + 3;
+    Lattice lattice = sectionLattice(part, across, at, region);
+    for (std::size_t i = 0; i < 2; ++i)
+      lines_[i] = std::move(lattice.lines[axes_[i]]);
+    columns_ = static_cast<std::uint32_t>(lines_[0].size()) + 2;
+    rows_ = static_cast<std::uint32_t>(lines_[1].size()) + 2;
     for (std::size_t i = 0; i < 2; ++i) {
       least_[i] = coordinate(region.least, axes_[i]);
       most_[i] = coordinate(region.most, axes_[i]);
@@ -63,12 +64,10 @@ private:
   };
 
   PlanePoint place(Node n) const {
-    const auto along = [&](std::uint32_t index, std::uint32_t count, std::size_t i) {
-      if (index <= 1) return least_[i];
-      if (index + 2 >= count) return most_[i];
-      return least_[i] + (index - 1) * step_;
+    const auto along = [](std::uint32_t index, const std::vector<double>& lines) {
+      return lines[std::min<std::size_t>(index == 0 ? 0 : index - 1, lines.size() - 1)];
     };
-    return {along(n.column, columns_, 0), along(n.row, rows_, 1)};
+    return {along(n.column, lines_[0]), along(n.row, lines_[1])};
   }
   double distance(const PlanePoint& p) const {
     Point3 q;
@@ -301,7 +300,8 @@ private:
   std::size_t across_;
   std::array<std::size_t, 2> axes_;
   double at_;
-  double step_ = 1, tolerance_ = 0.01;
+  double tolerance_ = 0.01;
+  std::array<std::vector<double>, 2> lines_; // of the lattice
   std::uint32_t columns_ = 0, rows_ = 0;
   PlanePoint least_{}, most_{};
   std::vector<float> values_;

@@ -25,8 +25,8 @@ struct Section {
 };
 
 // The plane where the coordinate `across` (0, 1, 2: X, Y, Z) is `at`, within the region. Lines lie within
-// about a twenty-thousandth of the region's longest side of the surface, corners too. Material or gaps
-// thinner than a 250th of that side may be missed. The work is bounded.
+// about a twenty-thousandth of the region's longest side of the surface, corners too. On the lattice of
+// sectionLattice(), and so the work is bounded.
 Section sectionOf(const Part& part, std::size_t across, double at, const Region& region);
 
 } // namespace dotek::sim

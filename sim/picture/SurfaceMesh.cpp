@@ -1,18 +1,20 @@
 #include "sim/picture/SurfaceMesh.h"
 
-#include "sim/geometry/Solid.h"
+#include "sim/picture/Lattice.h"
 
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
+#include <utility>
 
 namespace dotek::sim {
 namespace {
 
 constexpr double kSkin = 1e-7; // a lattice plane within a face: rounding decides nothing
 constexpr std::uint32_t kNone = 0xffffffff;
+
+using Vec = Eigen::Vector3d;
 
 Vec vec(const Point3& p) {
   return {p.x, p.y, p.z};
@@ -26,14 +28,11 @@ Point3 point(const Vec& v) {
 // The outermost ring of nodes lies on the border and counts as empty; no face is made there.
 class Mesher {
 public:
-  Mesher(const Part& part, const Region& region, std::uint32_t cells)
-      : part_(part), least_(vec(region.least)), most_(vec(region.most)) {
-    const Vec size = most_ - least_;
-    step_ = size.maxCoeff() / cells;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const double side = size[static_cast<Eigen::Index>(i)];
-      count_[i] = static_cast<std::uint32_t>(std::max(1.0, std::ceil(side / step_ - 1e-9))) + 3;
-    }
+  Mesher(const Part& part, Lattice lattice)
+      : part_(part), lattice_(std::move(lattice)), step_(lattice_.finest()) {
+    for (std::size_t i = 0; i < 3; ++i)
+      count_[i] = static_cast<std::uint32_t>(lattice_.lines[i].size()) + 2;
+    out_.missed = lattice_.missed;
     values_.assign(std::size_t{count_[0]} * count_[1] * count_[2], 0);
     cells_.assign(values_.size(), kNone);
   }
@@ -68,10 +67,9 @@ private:
   Vec place(const Node& n) const {
     Vec out;
     for (std::size_t i = 0; i < 3; ++i) {
-      const auto axis = static_cast<Eigen::Index>(i);
-      out[axis] = n[i] <= 1               ? least_[axis]
-                  : n[i] + 2 >= count_[i] ? most_[axis]
-                                          : least_[axis] + (n[i] - 1) * step_;
+      const std::vector<double>& lines = lattice_.lines[i];
+      out[static_cast<Eigen::Index>(i)] =
+          lines[std::min<std::size_t>(n[i] == 0 ? 0 : n[i] - 1, lines.size() - 1)];
     }
     return out;
   }
@@ -226,8 +224,8 @@ private:
   }
 
   const Part& part_;
-  Vec least_, most_;
-  double step_ = 1;
+  Lattice lattice_;
+  double step_;
   std::array<std::uint32_t, 3> count_{};
   std::vector<std::int8_t> values_; // 1 in, -1 out, 0 the ring
   std::vector<std::uint32_t> cells_;
@@ -238,10 +236,7 @@ private:
 } // namespace
 
 SurfaceMesh surfaceOf(const Part& part, const Region& region, std::uint32_t cells) {
-  const Solid& solid = part.solid();
-  if (solid.shapes.size() > 30 || !solid.meshes.empty()) cells = std::min(cells, 80u);
-  if (solid.shapes.size() > 90) cells = std::min(cells, 48u);
-  return Mesher(part, region, std::max(cells, 4u)).make();
+  return Mesher(part, surfaceLattice(part, region, cells)).make();
 }
 
 } // namespace dotek::sim

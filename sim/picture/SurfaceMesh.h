@@ -13,11 +13,11 @@ namespace dotek::sim {
 struct SurfaceMesh {
   std::vector<Point3> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles; // counterclockwise as seen from outside
+  double missed = 0;                                   // as Lattice::missed
 };
 
 // Of the part within the region; where the region cuts it, the surface is open. Edges and corners of the part
-// are kept. What is finer than a `cells`th of the region's longest side may be missed. The work is bounded:
-// fewer cells are taken for parts of many shapes.
+// are kept. On the lattice of surfaceLattice(), and so the work is bounded.
 SurfaceMesh surfaceOf(const Part& part, const Region& region, std::uint32_t cells = 112);
 
 } // namespace dotek::sim

@@ -1,3 +1,4 @@
+#include "sim/picture/Lattice.h"
 #include "sim/picture/PicturePlanes.h"
 #include "sim/picture/Sections.h"
 #include "sim/picture/SurfaceMesh.h"
@@ -227,6 +228,67 @@ TEST_CASE("surface: of random parts it is closed, and their size") {
                  deviation = std::pow(2 * kReach, 3) * std::sqrt(in + 1.0) / kPoints;
     CHECK(std::abs(volumeOf(mesh) - volume) < 4 * deviation + 0.03 * volume);
   }
+}
+
+// 31 bores of 4 to 10 mm and a slot in one corner of a plate of 2 m.
+std::unique_ptr<Part> largePlate(double& removed) {
+  PartBuilder builder;
+  builder.box({0, 0, -20}, {2000, 300, 0});
+  removed = 0;
+  for (int i = 0; i < 30; ++i) {
+    const double x = 15 + 17 * (i % 6), y = 20 + 30 * (i / 6), radius = 2 + i % 4;
+    builder.cylinder({x, y, -10}, {x, y, 1}, radius, Action::Remove);
+    removed += std::numbers::pi * radius * radius;
+  }
+  builder.cylinder({1900, 250, -30}, {1900, 250, 1}, 4, Action::Remove);
+  builder.block({1500, 150, -5}, {0, 0, 1}, {1, 1, 0}, {60, 2, 6}, 2, Action::Remove);
+  removed += 16 * std::numbers::pi + 2 * 60 * 2 * 2 - (4 - std::numbers::pi) * 4;
+  return finish(builder);
+}
+
+TEST_CASE("sections and surface: small bores of a large plate are drawn, each for itself") {
+  double removed = 0;
+  const auto part = largePlate(removed);
+  const Region region{{-60, -60, -80}, {2060, 360, 120}};
+  const Section section = sectionOf(*part, 2, -5, region);
+  REQUIRE(section.areas.size() == 33);
+  double area = 0;
+  for (const SectionLine& line : section.areas)
+    area += areaOf(line);
+  CHECK(area == doctest::Approx(2000 * 300 - removed).epsilon(1e-4));
+  for (const SectionLine& line : section.areas)
+    for (const PlanePoint& p : line.points)
+      CHECK(std::abs(part->distance({p[0], p[1], -5})) < 0.2);
+  CHECK(sectionOf(*part, 1, 20, region).areas.size() == 1);
+  CHECK(sectionLattice(*part, 2, -5, region).missed == 0);
+
+  const SurfaceMesh mesh = surfaceOf(*part, region, 160);
+  CHECK(mesh.missed == 0);
+  CHECK(openEdges(mesh) == 0);
+  CHECK(mesh.triangles.size() < 400'000);
+  for (int i = 0; i < 30; ++i) {
+    const double x = 15 + 17 * (i % 6), y = 20 + 30 * (i / 6), radius = 2 + i % 4;
+    const auto onWall = std::count_if(mesh.vertices.begin(), mesh.vertices.end(), [&](const Point3& p) {
+      return std::abs(std::hypot(p.x - x, p.y - y) - radius) < 0.1 && p.z > -9.9 && p.z < -0.1;
+    });
+    CAPTURE(i);
+    CHECK(onWall >= 12);
+  }
+}
+
+TEST_CASE("sections and surface: what is too fine for a picture is said") {
+  PartBuilder builder;
+  builder.box({0, 0, -20}, {2000, 2000, 0});
+  for (int i = 0; i < 180; ++i)
+    builder.cylinder({20 + 11.0 * i, 20 + std::fmod(i * 733.0, 1950), -10},
+                     {20 + 11.0 * i, 20 + std::fmod(i * 733.0, 1950), 1}, 0.2, Action::Remove);
+  const auto part = finish(builder);
+  const Region region{{-10, -10, -30}, {2010, 2010, 30}};
+  CHECK(surfaceOf(*part, region, 160).missed == doctest::Approx(0.4));
+  CHECK(sectionLattice(*part, 2, -5, region).missed == doctest::Approx(0.4));
+  CHECK(sectionLattice(*part, 2, -15, region).missed == 0); // under the bores
+  CHECK(missedNote(0.4).find("0.4 mm") != std::string::npos);
+  CHECK(missedNote(0).empty());
 }
 
 TEST_CASE("picture region: the reach of a part, and what a far rapid does not widen") {
