@@ -190,7 +190,7 @@ Lattice surfaceLattice(const Part& part, const Region& region, std::uint32_t cel
   double mostFaces = 150'000; // of cells, where all lines go through the part
   if (solid.shapes.size() > 30 || !solid.meshes.empty()) {
     cells = std::min(cells, 80u);
-    mostFaces = 60'000;
+    mostFaces = 80'000;
   }
   if (solid.shapes.size() > 90) {
     cells = std::min(cells, 48u);
