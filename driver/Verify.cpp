@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <memory>
+#include <utility>
 
 namespace dotek::driver {
 namespace {
@@ -185,9 +186,19 @@ private:
         if (!plan_.fixedHosts.contains(std::string(host)))
           session.diagnostics().report<diag::EditedNeedsValues>({}, fmt::format("--host {}", host));
       if (session.diagnostics().hasErrors()) return false;
+      edited_ = !isWritten(*bytes);
     }
     plan_.translation = std::move(translation);
     return true;
+  }
+
+  // Whether convert writes this text for the values that are given.
+  bool isWritten(const std::string& text) {
+    Diagnostics& diagnostics = main_.session().diagnostics();
+    const Diagnostics before = std::exchange(diagnostics, Diagnostics());
+    const std::optional<Translated> written = translated(options_, main_.compilation(), &main_.inputs());
+    diagnostics = before;
+    return written && written->translation.text == text;
   }
 
   const VerifyOptions& options_;

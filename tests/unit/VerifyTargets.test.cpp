@@ -104,6 +104,21 @@ TEST_CASE("what convert writes for the same values is what verify runs on Mikrop
   CHECK(lastLine(outcome.output) == "AGREES: 20 of 20 drawn cases");
 }
 
+TEST_CASE("the report says whether a program of Mikroprog is edited") {
+  const auto report = [](const std::string& text) {
+    const TestFolder scratch("dotek-verify-targets");
+    driver::VerifyOptions run = options("mikroprog");
+    run.cases = 5;
+    run.format = targets::ReportFormat::Json;
+    run.translation = scratch.write("edited", text);
+    addTo(run.common, kValues, kHosts);
+    return driver::verify(run).files.at(0).text;
+  };
+  const std::string good = converted("mikroprog");
+  CHECK(report(good).find("\"edited\": false") != std::string::npos);
+  CHECK(report(edited(good, "G92 X-3", "G92 X3")).find("\"edited\": true") != std::string::npos);
+}
+
 TEST_CASE("a damaged program of Mikroprog never agrees") {
   const std::string good = converted("mikroprog");
   const std::pair<std::string, std::string> kDamage[] = {
