@@ -8,6 +8,7 @@
 #include "targets/Target.h"
 
 #include <algorithm>
+#include <charconv>
 #include <fmt/format.h>
 #include <set>
 
@@ -110,6 +111,19 @@ VerifyOptions optionsOf(const ConvertOptions& options, const std::string& input)
   return out;
 }
 
+// The number of a program among several, which the command for one input has to name. nullopt: it is that of
+// one by itself, or no number.
+std::optional<std::uint32_t> numberAmong(const Target* target, const OutputFile& file, std::size_t cycle) {
+  const bool numbered = target != nullptr && std::find(target->flags.begin(), target->flags.end(),
+                                                       TargetFlag::ProgramNumber) != target->flags.end();
+  if (!numbered || cycle == 0 || !file.name.starts_with('O')) return std::nullopt;
+  const char* const end = file.name.data() + file.name.size();
+  std::uint32_t number = 0;
+  const auto [rest, error] = std::from_chars(file.name.data() + 1, end, number);
+  if (error != std::errc() || std::string_view(rest, end) != ".nc") return std::nullopt;
+  return number;
+}
+
 // What does not agree is not given.
 void leaveOut(const std::vector<std::size_t>& inputs, Outcome& outcome) {
   if (inputs.empty()) return;
@@ -153,6 +167,8 @@ Outcome verified(const ConvertOptions& options, Outcome outcome) {
     const bool program = isProgram(input);
     dropOthers(one, program);
     if (own) one.converted = resultOf(outcome, i, program ? outcome.arguments.size() : cycles, said);
+    if (!program && outcome.files.size() == inputs.size())
+      if (const auto number = numberAmong(target, outcome.files[i], cycles)) one.programNumber = number;
     if (!program) ++cycles;
     Outcome found = driver::verify(one);
     status = std::max(status, found.status);

@@ -59,6 +59,17 @@ TEST_CASE("convert --verify --report: each report lists what concerns its input"
   }
 }
 
+TEST_CASE("convert --verify --report: the command in a report makes the same program") {
+  const DataFolder folder;
+  const CommandResult run = runDotek({"convert", "examples/surface-x", "examples/surface-y", "--prog",
+                                      "examples/mill-post.txt", "--to", "fanuc", "-d", folder.path() + "/out",
+                                      "--verify", "--report", folder.path() + "/r.md"},
+                                     root());
+  REQUIRE_MESSAGE(run.status <= 1, run.err); // as above
+  CHECK(count(readAll(fs::path(folder.path()) / "r-surface-x.md"), "--program-number") == 0);
+  CHECK(count(readAll(fs::path(folder.path()) / "r-surface-y.md"), "--program-number 8001") > 0);
+}
+
 TEST_CASE("sim: the codes that switch the probe come from dotek.toml, too") {
   const DataFolder folder;
   folder.write("run.nc", "G21 G90 G54\nM71\nG0 X5.\nM72\nM30\n");
