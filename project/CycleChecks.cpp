@@ -58,6 +58,8 @@ void takeChanges(const gibbs::ChecksResult& result, const CycleFolder& folder, F
   }
 }
 
+constexpr std::string_view kNoMessage = "no message"; // a message of that text stands in marks
+
 // One finding, however many messages the macro shows.
 void rejected(const gibbs::ChecksResult& result, const CycleFolder& folder, const gibbs::RunContext& context,
               Blame blame, Diagnostics& diagnostics) {
@@ -77,7 +79,9 @@ void rejected(const gibbs::ChecksResult& result, const CycleFolder& folder, cons
     blamed.emplace_back(written, context.fields.at(folded));
   }
   const std::string values = rejectedValues(blamed);
-  const auto shown = [](const std::string& text) { return text.empty() ? "no message" : "`" + text + "`"; };
+  const auto shown = [](const std::string& text) {
+    return text.empty() ? std::string(kNoMessage) : "`" + text + "`";
+  };
   if (result.rejections.empty()) {
     diagnostics.report<diag::ValuesRejected>({folder.cycle->cycleData->file, 0, 0}, folder.name, values,
                                              shown(""));
@@ -103,6 +107,10 @@ std::string rejectedValues(const std::vector<std::pair<std::string, double>>& va
                                      : ", `") +
            values[i].first + "` = " + numberText(values[i].second);
   return out;
+}
+
+bool isWithoutMessage(std::string_view rejection) {
+  return rejection.ends_with(kNoMessage);
 }
 
 void takeComputed(const gibbs::ChecksResult& result, const CycleFolder& folder, const Session& session,

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -16,6 +17,9 @@ namespace dotek::project {
 
 // Names and values as a message says them: `A` = 1 with `B` = 2; none: these values.
 std::string rejectedValues(const std::vector<std::pair<std::string, double>>& values);
+
+// A rejection of a dialog that says nothing to its user.
+bool isWithoutMessage(std::string_view rejection);
 
 // Whether a rejection names the fields whose values cause it, which costs many runs of the checks.
 enum class Blame : std::uint8_t { Fields, Nothing };

@@ -80,6 +80,12 @@ bool saysSo(std::string_view program, std::string_view alarm, std::string_view m
           !hasAlarm(program, wanted));
 }
 
+bool raises(std::string_view program, std::string_view alarm) {
+  const auto own = alarmsIn(program, "#3000=", '(');
+  return std::any_of(own.begin(), own.end(),
+                     [&](const auto& one) { return plain(one.second) == plain(alarm); });
+}
+
 std::string whyListsOther(std::string_view program) {
   const auto listed = alarmsIn(program, "(ALARM ", ' ');
   if (listed.empty()) return "";

@@ -15,6 +15,9 @@ std::string_view listedDefault(std::string_view program, char letter);
 // ASCII is written in several ways.
 bool saysSo(std::string_view program, std::string_view alarm, std::string_view message);
 
+// The text is that of an alarm which the program raises itself.
+bool raises(std::string_view program, std::string_view alarm);
+
 // The list in the header says what each alarm is. "" or what is wrong.
 std::string whyListsOther(std::string_view program);
 

@@ -6,6 +6,7 @@
 #include "backends/gibbs/TargetDialog.h"
 #include "frontend/gibbs/Ast.h"
 #include "frontend/gibbs/Cycle.h"
+#include "project/CycleChecks.h"
 #include "support/Decimal.h"
 #include "support/Temporary.h"
 #include "support/messages/Verify.h"
@@ -177,7 +178,7 @@ private:
     if (ran.rejected) {
       const std::string_view own = messageIn(ran.text);
       Diagnostics ignored;
-      out.refused = own == backends::gibbs::plain(wanted, {}, ignored);
+      out.refused = isWithoutMessage(wanted) || own == backends::gibbs::plain(wanted, {}, ignored);
       if (!out.refused)
         out.differsAt(
             verify::Aspect::Ending,
