@@ -1,3 +1,5 @@
+#include "lint/NcProgram.h"
+#include "lint/Probing.h"
 #include "lint/ProgBlocks.h"
 
 #include <algorithm>
@@ -6,6 +8,8 @@
 
 namespace dotek::lint::rule {
 namespace {
+
+constexpr std::uint32_t kFirstKept = 500; // on Fanuc
 
 // n of `#n=`; nothing: another block.
 std::optional<std::uint32_t> storedIn(const ProgBlock& block) {
@@ -26,7 +30,7 @@ bool isKept(const Project& project, std::uint32_t number) {
     return false;
   };
   if (project.postControl != nullptr) return keeps(*project.postControl);
-  return number >= 500;
+  return number >= kFirstKept;
 }
 
 void check(const Project& project, Report& report) {
@@ -64,12 +68,59 @@ void check(const Project& project, Report& report) {
   }
 }
 
+// A set whose macros calibrate here on purpose: of a program of the vendor, or one beside it in its numbers.
+bool calibrates(const stdlib::MacroSet& set, std::uint32_t program) {
+  return std::any_of(set.signatures.begin(), set.signatures.end(), [&](const stdlib::MacroSignature& one) {
+    return one.intent == stdlib::Intent::Calibration && one.program / 10 == program / 10;
+  });
+}
+
+const stdlib::MacroSet* setOf(const Project& project, std::uint32_t program) {
+  if (program == 0 || probingOf(project).isOwn(program)) return nullptr; // its text says what it reads
+  for (const stdlib::MacroSet& set : project.macroSets)
+    if (set.calls(program) || calibrates(set, program)) return &set;
+  return nullptr;
+}
+
+void checkProgram(const NcProgram& nc, Report& report) {
+  const ir::Program& program = nc.program;
+  const stdlib::MacroSet* called = nullptr;
+  SourceRange call;
+  for (const ir::ProgramStatement& statement : program.body) {
+    const std::uint32_t number = probingOf(nc.project).step(statement).program;
+    const stdlib::MacroSet* const set = setOf(nc.project, number);
+    if (set == nullptr) continue;
+    if (calibrates(*set, number)) return;
+    if (called == nullptr) called = set, call = statement.origin.range();
+  }
+  if (called == nullptr) return;
+  if (program.number <= UINT32_MAX) {
+    const auto own = static_cast<std::uint32_t>(program.number);
+    if (called->calls(own) || calibrates(*called, own)) return;
+  }
+  for (const ir::ProgramStatement& statement : program.body) {
+    const auto number = storedNumber(statement);
+    const bool holds = number && *number >= kFirstKept &&
+                       std::any_of(called->scratch.begin(), called->scratch.end(), [&](const auto& part) {
+                         return *number >= part.first && *number <= part.second;
+                       });
+    if (!holds) continue;
+    report
+        .at(statement.origin.range(),
+            "#{} is one of the variables in which {} keeps the calibration of the stylus; after this every "
+            "measurement is wrong; keep the value in another variable",
+            *number, called->title)
+        .note(call, "the program calls its macros");
+  }
+}
+
 } // namespace
 
 DOTEK_LINT_RULE(calibration_overwritten){
     .severity = Severity::Warning,
     .tier = Tier::Syntax,
     .check = check,
+    .program = checkProgram,
 };
 
 } // namespace dotek::lint::rule

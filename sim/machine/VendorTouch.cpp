@@ -3,6 +3,7 @@
 #include "sim/machine/VendorRun.h"
 
 #include <cmath>
+#include <fmt/format.h>
 
 namespace dotek::sim {
 
@@ -26,7 +27,15 @@ bool VendorRun::findStylus() {
   };
   const std::optional<double> x = read(facts.radiusX), y = read(facts.radiusY);
   if (!ok) return false;
-  if (x.has_value() != y.has_value()) return notKnown("one of the two calibrated radii is empty");
+  if (x.has_value() != y.has_value()) {
+    const std::uint32_t empty = x ? *facts.radiusY : *facts.radiusX,
+                        set = x ? *facts.radiusX : *facts.radiusY;
+    return notKnown(
+        fmt::format("of the two calibrated radii #{} is empty, and #{} is not; the macros keep the "
+                    "calibration of the stylus there, and a program that stores something else in "
+                    "one of them spoils it",
+                    empty, set));
+  }
   for (const auto& offset : {read(facts.offsetX), read(facts.offsetY)})
     if (offset && *offset != 0)
       return notKnown("which way the calibrated offset of the ball counts is in no source");
@@ -36,7 +45,14 @@ bool VendorRun::findStylus() {
   if (!x && !memory_.stylusRadius) sayOnce("stylus", "not calibrated: radius 0");
   radiusX_ = x.value_or(memory_.stylusRadius.value_or(0));
   radiusY_ = y.value_or(memory_.stylusRadius.value_or(0));
-  if (radiusX_ < 0 || radiusY_ < 0) return notKnown("a calibrated radius is below 0");
+  if (radiusX_ < 0 || radiusY_ < 0) {
+    const auto variable = radiusX_ < 0 ? facts.radiusX : facts.radiusY;
+    return notKnown(variable && (radiusX_ < 0 ? x : y)
+                        ? fmt::format("the calibrated radius in #{} is below 0; a program that stores "
+                                      "something else there spoils the calibration of the stylus",
+                                      *variable)
+                        : "a calibrated radius is below 0");
+  }
   return true;
 }
 
