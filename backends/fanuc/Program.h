@@ -3,6 +3,7 @@
 
 #include "backends/fanuc/Emit.h"
 #include "ir/Program.h"
+#include "stdlib/MacroSet.h"
 
 #include <cstdint>
 #include <optional>
@@ -16,7 +17,8 @@ struct ProgramOptions {
   const stdlib::Control& source;                                   // that the programs are written for
   std::optional<std::uint32_t> number;                             // of the one program of the file
   std::optional<std::pair<std::uint64_t, std::uint64_t>> renumber; // first N number and step
-  bool plainMessages = false; // accents of messages are dropped; else they are refused
+  bool plainMessages = false;                       // accents of messages are dropped; else they are refused
+  std::vector<const stdlib::MacroSet*> macros = {}; // that the programs may call, as a vendor delivers them
 };
 
 // The file, `%` lines included; after each program's lines the next. nullopt where the control cannot say

@@ -68,9 +68,46 @@ public:
   }
 
 private:
-  std::uint32_t there(std::uint32_t number, SourceRange range) {
+  // A call of a vendor's macro just before, on every way, has left a result there: what the control keeps at
+  // power off makes no difference.
+  bool isFilled(std::uint32_t number) const {
+    for (const ir::ProgramStatement* at = statement_; at != program_.body.data();) {
+      --at;
+      if (const auto* call = std::get_if<ir::Call>(&at->node)) {
+        if (at->blockDelete == 0 && leaves(*call, number)) return true;
+        continue;
+      }
+      if (!std::holds_alternative<ir::NcBlock>(at->node) && !std::holds_alternative<ir::Store>(at->node) &&
+          !std::holds_alternative<ir::Comment>(at->node) && !std::holds_alternative<ir::Notice>(at->node) &&
+          !std::holds_alternative<ir::Branch>(at->node) && !std::holds_alternative<ir::Print>(at->node))
+        return false; // others come here, too, or it is not known
+    }
+    return false;
+  }
+
+  bool leaves(const ir::Call& call, std::uint32_t number) const {
+    const auto called = wholeOf(call.program);
+    if (call.kind != ir::CallKind::Macro || !called || call.repeats != nullptr) return false;
+    std::string letters;
+    for (const ir::CallArgument& one : call.arguments)
+      letters += one.letter;
+    bool found = false;
+    for (const stdlib::MacroSet* set : context_.options.macros)
+      for (const stdlib::MacroSignature& signature : set->signatures) {
+        if (signature.program != *called || !signature.fits(letters)) continue;
+        const bool fills = std::any_of(
+            signature.results.begin(), signature.results.end(),
+            [&](const stdlib::MacroResult& one) { return one.documented && one.variable == number; });
+        if (!fills) return false;
+        found = true;
+      }
+    return found;
+  }
+
+  std::uint32_t there(std::uint32_t number, SourceRange range, bool reads = false) {
     const VariableThere found = variableThere(number, context_.from(), context_.to());
     if (!found.number) {
+      if (found.onlyKeptOtherwise && reads && isFilled(number)) return number;
       context_.diagnostics.report<diag::VariableElsewhere>(range, number, found.why);
     } else if (*found.number != number) {
       context_.diagnostics.report<diag::VariableMoved>(range, number, found.what, *found.number,
@@ -99,7 +136,7 @@ private:
       computed(machine->number);
       return expression;
     }
-    const std::uint32_t moved = there(*number, expression->range);
+    const std::uint32_t moved = there(*number, expression->range, true);
     if (moved == *number) return expression;
     return ir::machineVariable(ir::constant(moved, machine->number->range, std::to_string(moved)),
                                expression->range);

@@ -174,7 +174,7 @@ std::optional<bool> lengthIn(const Control& control, const Meaning& meaning) {
 }
 
 VariableThere refused(std::string why, std::string what = "") {
-  return {std::nullopt, std::move(what), std::move(why)};
+  return {std::nullopt, std::move(what), std::move(why), false};
 }
 
 VariableThere plainVariable(std::uint32_t number, const Control& from, const Control& to) {
@@ -182,16 +182,19 @@ VariableThere plainVariable(std::uint32_t number, const Control& from, const Con
   const auto there = keptOf(to, number);
   if (here && !there)
     return refused(fmt::format("is no variable of {}, which has {}", to.title, variableRanges(to)));
-  if (here && *here != *there)
-    return refused(
+  if (here && *here != *there) {
+    VariableThere out = refused(
         *here
             ? fmt::format("keeps its value at power off on {}, and loses it on {}", from.title, to.title)
             : fmt::format("is empty after power on on {}, and keeps its value on {}", from.title, to.title));
+    out.onlyKeptOtherwise = (number <= from.locals) == (number <= to.locals);
+    return out;
+  }
   if (here && (number <= from.locals) != (number <= to.locals))
     return refused(fmt::format("is local on one of {} and {}", from.title, to.title));
   if (!here && there)
     return refused(fmt::format("is no variable of {}, but one of {}", from.title, to.title));
-  return {number, "", ""};
+  return {number, "", "", false};
 }
 
 } // namespace
@@ -231,14 +234,14 @@ const StateRange* stateOf(const Control& control, std::uint32_t number) {
 } // namespace
 
 VariableThere variableThere(std::uint32_t number, const Control& from, const Control& to) {
-  if (number == 0 || (from.name == to.name && from.origin == to.origin)) return {number, "", ""};
+  if (number == 0 || (from.name == to.name && from.origin == to.origin)) return {number, "", "", false};
   if (number < kFirstSystem) return plainVariable(number, from, to);
   if (keptOf(from, number) || keptOf(to, number)) return plainVariable(number, from, to);
   const std::optional<Meaning> meaning = meaningOf(from, number);
   if (const StateRange* state = meaning ? nullptr : stateOf(from, number))
     for (const StateRange& other : to.state)
       if (other.title == state->title && other.last - other.first == state->last - state->first)
-        return {other.first + (number - state->first), state->title, ""};
+        return {other.first + (number - state->first), state->title, "", false};
   if (!meaning) return refused(fmt::format("has no meaning in the profile of {}", from.title));
   const std::string what = describe(*meaning);
   if (meaning->kind == Kind::Modal && !sameGroup(meaning->index, from, to))
@@ -254,7 +257,7 @@ VariableThere variableThere(std::uint32_t number, const Control& from, const Con
     return refused(
         fmt::format("is {} on {}; the profile of {} has no variable for it", what, from.title, to.title),
         what);
-  return {there, what, ""};
+  return {there, what, "", false};
 }
 
 } // namespace dotek::backends::fanuc

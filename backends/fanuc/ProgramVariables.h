@@ -15,6 +15,7 @@ struct VariableThere {
   std::optional<std::uint32_t> number; // nothing: refused
   std::string what;                    // "X of the work offset of G56"; "" of locals and common variables
   std::string why;                     // of a refusal: "is no variable of Fanuc 0i-MD"
+  bool onlyKeptOtherwise = false;      // of a refusal: both have it, and one loses it at power off
 };
 VariableThere variableThere(std::uint32_t number, const stdlib::Control& from, const stdlib::Control& to);
 

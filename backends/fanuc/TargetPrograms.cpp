@@ -81,6 +81,12 @@ void ProgramConversion::convert(const std::string& path, ConversionResult& resul
   if (!translateCalls(*programs, source)) return;
   fanuc::ProgramOptions emit{*control_, source, options_.programNumber, options_.renumber, false};
   emit.plainMessages = options_.common.assume.contains("plain-messages");
+  for (const stdlib::MacroSet& set : session_.macroSets()) {
+    const bool own = std::any_of(programs->programs.begin(), programs->programs.end(), [&](const auto& one) {
+      return one.number <= UINT32_MAX && set.calls(static_cast<std::uint32_t>(one.number));
+    });
+    if (!own) emit.macros.push_back(&set);
+  }
   const auto lines = fanuc::emitPrograms(*programs, emit, session_.sources(), session_.diagnostics());
   if (!lines) return;
   warnOfEarlyReads(*lines, *control_, session_);

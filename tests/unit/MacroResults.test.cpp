@@ -10,6 +10,34 @@ using namespace dotek::tests;
 
 namespace fs = std::filesystem;
 
+namespace {
+
+CommandResult converted(const DataFolder& folder, const std::string& blocks, const std::string& control) {
+  folder.write("o7.nc", "%\nO7\nG21 G90 G17 G40 G49 G80 G94\nG54 G43 H3 Z50.\nG65 P9832\n"
+                        "G65 P9810 Z-5. F1000.\n" +
+                            blocks + "G65 P9833\nM30\n%\n");
+  return runDotek({"convert", "o7.nc", "--to", "fanuc", "--from-control", "fanuc-31i-b", "--control", control,
+                   "--probe-macros", "inspection-plus", "--verify", "-o", "out.nc"},
+                  folder.path());
+}
+
+} // namespace
+
+TEST_CASE("convert: a result that a call has filled is read on a control that keeps it at power off") {
+  const DataFolder folder;
+  const std::string call = "G65 P9811 X20. S2\n", read = "#550=#140\n";
+  const CommandResult run = converted(folder, call + "G65 P9810 Z50. F3000.\n" + read, "haas-ngc");
+  CHECK_MESSAGE(run.status == 0, run.err);
+  for (const std::string& text : {read + call,                                      // before the call
+                                  "IF[#1EQ1.]GOTO10\n" + call + "N10" + read,       // a way beside it
+                                  "/" + call + read,                                // left out by a switch
+                                  std::string("G65 P9811 X20. S2\n#550=#120\n")}) { // of no call
+    const CommandResult refused = converted(folder, text, "haas-ngc");
+    CHECK_MESSAGE(refused.status == 1, text << refused.err);
+    CHECK(refused.err.find("[variable-elsewhere]") != std::string::npos);
+  }
+}
+
 TEST_CASE("convert --verify: what a dialog refuses without a message has an alarm of the translation's own") {
   const DataFolder folder;
   fs::copy((root() / "examples/surface-x"), folder.path() + "/surface-x");
