@@ -336,6 +336,7 @@ verify::Record ProgramRunner::runSide(const Side& side, const verify::Case& draw
   if (side.set != nullptr) {
     meaning.emplace(*side.set, *side.control);
     meaning->setStylusRadius(drawn.hosts.at("tool_radius"));
+    if (sourceSet_ == targetSet_) meaning->passUnstated();
   }
   // What the programs switch off is on before, on both sides.
   verify::Random random(callerStream(drawn));
@@ -448,6 +449,8 @@ CaseResult ProgramRunner::run(const verify::Case& drawn) {
   result.whyAt = played->whyAt;
   result.rejected = played->rejected;
   result.remedy = played->remedy;
+  for (const verify::Measure& measure : played->record.measures)
+    if (!measure.unstated.empty()) result.unstated.emplace_back(inSource(measure.range), measure.unstated);
   const verify::ProbeOff off = verify::probeOffIn(played->record);
   if (off.measuring) result.unarmed = inSource(*off.measuring);
   if (off.protectedMove) result.unprotected = inSource(*off.protectedMove);

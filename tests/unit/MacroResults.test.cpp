@@ -23,6 +23,14 @@ CommandResult converted(const DataFolder& folder, const std::string& blocks, con
 
 } // namespace
 
+TEST_CASE("convert --verify: a result that is read after a protected move is that of the call before") {
+  const DataFolder folder;
+  const std::string text = "G65 P9811 X20. S2\nG65 P9810 Z50. F3000.\n#550=#135\n";
+  const CommandResult run = converted(folder, text, "fanuc-31i-b");
+  CHECK_MESSAGE(run.status == 0, run.err);
+  CHECK(run.err.find("AGREES: 200 of 200 drawn cases") != std::string::npos);
+}
+
 TEST_CASE("convert: a result that a call has filled is read on a control that keeps it at power off") {
   const DataFolder folder;
   const std::string call = "G65 P9811 X20. S2\n", read = "#550=#140\n";
