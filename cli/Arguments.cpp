@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <filesystem>
 #include <fmt/format.h>
 #include <ostream>
@@ -161,16 +162,29 @@ void checkCommand(const std::vector<std::string>& arguments) {
 
 // A flag whose value is an empty text, such as that of a variable of a script which is not set, would count
 // as not given.
-void refuseEmptyValues(const CLI::App& app) {
+// `-q`, `--json`: a flag, whether or not the command has it, and no number or name.
+bool looksLikeFlag(std::string_view value) {
+  if (value.size() < 2 || value.front() != '-') return false;
+  const auto isLetter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
+  if (value[1] != '-') return value.size() == 2 && isLetter(value[1]);
+  return value.size() > 2 && isLetter(value[2]) &&
+         std::all_of(value.begin() + 2, value.end(), [&](char c) { return isLetter(c) || c == '-'; });
+}
+
+void refuseWrongValues(const CLI::App& app) {
   for (const CLI::App* command : app.get_subcommands()) {
     for (const CLI::Option* option : command->get_options()) {
       const auto& values = option->results();
+      for (const std::string& value : values)
+        if (!option->get_positional() && looksLikeFlag(value))
+          throw UsageError(
+              fmt::format("{} needs a value, and `{}` after it is a flag", option->get_name(), value));
       if (!option->get_positional() && std::find(values.begin(), values.end(), "") != values.end())
         throw UsageError(
             option->get_name() + " needs a value, and its value is empty" +
             (option->get_name() == "--call" ? "; `--call \" \"` calls a macro without arguments" : ""));
     }
-    refuseEmptyValues(*command);
+    refuseWrongValues(*command);
   }
 }
 
@@ -305,7 +319,7 @@ std::optional<int> parseArguments(const std::vector<std::string>& arguments, Arg
     std::vector<std::string> reversed = spreadPairs(arguments);
     std::reverse(reversed.begin(), reversed.end());
     app.parse(reversed);
-    refuseEmptyValues(app);
+    refuseWrongValues(app);
     const std::string command = app.get_subcommands().front()->get_name();
     if (command == "help") return printHelp(app, raw.inputs, out);
     for (const CommandFlags& one : kCommands)

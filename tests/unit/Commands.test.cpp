@@ -187,6 +187,18 @@ TEST_CASE("a flag that a command does not read is refused") {
   CHECK(macros.err.find("[unknown-macro-set]") != std::string::npos);
 }
 
+TEST_CASE("a flag is not taken as the value of another") {
+  const DataFolder folder;
+  folder.write("run.nc", "G21 G90 G54\nG0 X5.\nM30\n");
+  for (const char* flag : {"-q", "--json", "--qiet"}) {
+    const CommandResult run = runDotek({"sim", "run.nc", "--html", flag}, folder.path());
+    CHECK(run.status == 2);
+    CHECK(run.err.find("--html needs a value, and `" + std::string(flag) + "` after it is a flag") !=
+          std::string::npos);
+    CHECK_FALSE(fs::exists(fs::path(folder.path()) / flag));
+  }
+}
+
 TEST_CASE("`-` is standard output for a folder of results, too") {
   const ProcessFolder folder;
   folder.write("p.nc", "%\nO1\nG90 G0 X1.\nM30\n%\n");
