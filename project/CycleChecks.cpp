@@ -58,7 +58,7 @@ void takeChanges(const gibbs::ChecksResult& result, const CycleFolder& folder, F
   }
 }
 
-constexpr std::string_view kNoMessage = "no message"; // a message of that text stands in marks
+constexpr std::string_view kNoMessage = "no message"; // a message of that text has marks
 
 // One finding, however many messages the macro shows.
 void rejected(const gibbs::ChecksResult& result, const CycleFolder& folder, const gibbs::RunContext& context,

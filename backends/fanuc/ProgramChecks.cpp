@@ -73,14 +73,15 @@ private:
   bool isFilled(std::uint32_t number) const {
     for (const ir::ProgramStatement* at = statement_; at != program_.body.data();) {
       --at;
-      if (const auto* call = std::get_if<ir::Call>(&at->node)) {
-        if (at->blockDelete == 0 && leaves(*call, number)) return true;
-        continue;
-      }
-      if (!std::holds_alternative<ir::NcBlock>(at->node) && !std::holds_alternative<ir::Store>(at->node) &&
-          !std::holds_alternative<ir::Comment>(at->node) && !std::holds_alternative<ir::Notice>(at->node) &&
-          !std::holds_alternative<ir::Branch>(at->node) && !std::holds_alternative<ir::Print>(at->node))
-        return false; // others come here, too, or it is not known
+      bool filled = false, goesOn = true; // else others come here, too, or it is not known
+      ir::match(
+          *at, [&](const ir::Call& call) { filled = at->blockDelete == 0 && leaves(call, number); },
+          [](const ir::OneOf<ir::NcBlock, ir::Store, ir::Comment, ir::Notice, ir::Branch, ir::Print> auto&) {
+          },
+          [&](const ir::OneOf<ir::Label, ir::Jump, ir::JumpTo, ir::Loop, ir::LoopEnd, ir::Exit, ir::Raise,
+                              ir::Port, ir::NameVariables> auto&) { goesOn = false; });
+      if (filled) return true;
+      if (!goesOn) return false;
     }
     return false;
   }
