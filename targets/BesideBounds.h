@@ -9,11 +9,13 @@
 #include <cstdint>
 #include <fmt/format.h>
 #include <optional>
+#include <vector>
 
 namespace dotek::targets {
 
-// `run` gets each such case that the checks reject, at the bound and a step to either side, adds what it
-// finds to `result` and says whether to go on. The first that finds something is named and is the last.
+// `run` gets each such case that the checks reject, at the bound, a step to either side and as far as
+// Bounds::beside() says. It adds what it finds to `result` and says whether to go on. The first that finds
+// something is named and is the last.
 template <class Plan, class Run>
 void runBesideBounds(const Plan& plan, const verify::Case& drawn, CaseResult& result, const Run& run) {
   if (plan.bounds == nullptr) return;
@@ -21,11 +23,14 @@ void runBesideBounds(const Plan& plan, const verify::Case& drawn, CaseResult& re
     const std::optional<verify::Case> met = plan.bounds->meet(bound, plan.fields, drawn, true);
     if (!met) continue;
     const verify::DrawField& field = plan.fields[bound.field];
-    for (const int steps : {-1, 0, 1}) {
+    const double turn = met->values.at(field.name), step = std::pow(10.0, -field.decimals);
+    std::vector<double> values = {turn - step, turn, turn + step};
+    for (const double far : plan.bounds->beside(*met, field))
+      if (std::abs(far - turn) > 1.5 * step) values.push_back(far);
+    for (const double value : values) {
       verify::Case beside = *met;
       beside.callers = false;
-      double& value = beside.values[field.name];
-      value += steps * std::pow(10.0, -field.decimals);
+      beside.values[field.name] = value;
       if (!plan.bounds->rejects(beside)) continue; // others are drawn
       const bool goOn = run(beside);
       for (CaseFinding& finding : result.findings)

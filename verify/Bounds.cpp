@@ -262,6 +262,25 @@ std::optional<Case> Bounds::meet(const Bound& bound, const std::vector<DrawField
   return std::nullopt;
 }
 
+std::array<double, 2> Bounds::beside(const Case& met, const DrawField& field) const {
+  const double value = met.values.at(field.name), step = std::pow(10.0, -field.decimals);
+  const std::array<double, 2> near = {roundedTo(value - step, field.decimals),
+                                      roundedTo(value + step, field.decimals)};
+  const auto rejected = [&](double other) {
+    Case moved = met;
+    moved.values[field.name] = other;
+    return rejects(moved);
+  };
+  if (!rejected(near[0]) || !rejected(near[1])) return near;
+  // Whole numbers, even ones, tens, turns of an angle.
+  constexpr double kWider[] = {1, 2, 5, 10, 15, 45, 90};
+  for (const double wider : kWider) {
+    const std::array<double, 2> far = {std::ceil(value) - wider, std::floor(value) + wider};
+    if (rejected(far[0]) != rejected(far[1])) return far;
+  }
+  return near;
+}
+
 std::vector<Bound> Bounds::find(const std::vector<DrawField>& fields, const std::vector<Case>& samples,
                                 bool roundsRadius, std::uint64_t most) const {
   // For each comparison the fields and samples that can meet it at all: one walk of a sample finds those of

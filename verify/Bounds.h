@@ -4,6 +4,7 @@
 #include "ir/Cycle.h"
 #include "verify/Draw.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -32,6 +33,11 @@ public:
   // nullopt: no such value was found.
   std::optional<Case> meet(const Bound& bound, const std::vector<DrawField>& fields, Case drawn,
                            bool roundsRadius) const;
+
+  // Values of the field below and above that of a case that meets a bound: a step away. Where the checks
+  // reject both, as one for whole numbers does, the nearest in wider steps of which they let one pass: the
+  // other one is rejected by the comparison itself.
+  std::array<double, 2> beside(const Case& met, const DrawField& field) const;
 
   // The checks, as they are translated, raise an alarm. What is not known of them rejects nothing.
   bool rejects(const Case& drawn) const;

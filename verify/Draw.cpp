@@ -402,7 +402,10 @@ void Draws::apply(const Edge& edge, Case& drawn) const {
   case Edge::Means::Bound:
     if (const auto met = bounds_->meet({edge.comparison, edge.field}, fields_, drawn, isDrawn("tool_radius")))
       drawn = *met;
-    drawn.values[field.name] = rounded(drawn.values[field.name] + edge.steps * stepOf(field), field.decimals);
+    if (edge.steps == 0)
+      drawn.values[field.name] = rounded(drawn.values[field.name], field.decimals);
+    else
+      drawn.values[field.name] = bounds_->beside(drawn, field)[edge.steps < 0 ? 0 : 1];
     return;
   case Edge::Means::Radius: {
     const auto radius = drawn.hosts.find("tool_radius");

@@ -81,7 +81,7 @@ private:
       Value,  // the field gets `value`
       Radius, // the ball's radius times `value`, plus `steps` of the field
       System, // `value`, which is the active system, too
-      Bound,  // where a comparison turns, plus `steps` of the field
+      Bound,  // where a comparison turns, or beside it: below, or above, by `steps`
     };
     std::size_t field = 0;
     Means means = Means::Value;

@@ -276,6 +276,39 @@ TEST_CASE("draws: edge cases do not depend on how many of them are asked for") {
   CHECK(met.contains(4.51));
 }
 
+TEST_CASE("draws: beside the bound of a whole number lie whole numbers, where a check lets no others pass") {
+  const auto rejected = [](ir::ConditionPtr condition) {
+    return statement(ir::Branch{std::move(condition), 1});
+  };
+  const auto met = [&](bool whole, double low, double high) {
+    ir::Cycle cycle;
+    const ir::VariableId t = cycle.add(parameter("T", ir::Kind::ToolOffset));
+    cycle.checks.push_back(rejected(ir::compare(ir::Relation::Less, ir::variable(t), ir::constant(low))));
+    cycle.checks.push_back(rejected(ir::compare(ir::Relation::Greater, ir::variable(t), ir::constant(high))));
+    if (whole)
+      cycle.checks.push_back(rejected(ir::compare(ir::Relation::NotEqual, ir::variable(t),
+                                                  ir::unary(ir::UnaryOp::Truncate, ir::variable(t)))));
+    cycle.checks.push_back(statement(ir::Return{}));
+    cycle.checks.push_back(statement(ir::Label{1}));
+    cycle.checks.push_back(statement(ir::Alarm{}));
+    const auto bounds = std::make_shared<const verify::Bounds>(cycle);
+    const Draws drawn({field("T", 7, 3, ir::Kind::ToolOffset)}, {}, {}, 5, bounds, 40);
+    std::set<double> out;
+    for (std::uint64_t n = 0; n < 9; ++n)
+      out.insert(drawn.edge(n).values.at("T"));
+    return out;
+  };
+  const std::set<double> whole = met(true, 2, 40);
+  for (const double value : {1, 2, 3, 39, 40, 41})
+    CHECK_MESSAGE(whole.contains(value), value);
+  const std::set<double> between = met(true, 1.5, 40.5);
+  for (const double value : {1, 2, 40, 41})
+    CHECK_MESSAGE(between.contains(value), value);
+  const std::set<double> any = met(false, 2, 40);
+  for (const double value : {1.999, 2.0, 2.001, 39.999, 40.0, 40.001})
+    CHECK_MESSAGE(any.contains(value), value);
+}
+
 TEST_CASE("draws: the examples are reached by a fifth of the proposals and more") {
   for (const char* name : {"bore", "corner-xyz", "surface-x", "surface-y", "surface-z"}) {
     CAPTURE(name);
