@@ -230,6 +230,27 @@ void pathsBack(const verify::Record& ran, const MikroprogFacts& facts, std::vect
   }
 }
 
+// A datum that is set only after the way back belongs to the measure before it, where that lacks one: what it
+// sets is another place.
+void lateDatums(const verify::Record& source, const verify::Record& ran, verify::Gathered& got) {
+  for (const Mark& mark : got.loose) {
+    if (mark.kind != Mark::Kind::Datum) continue;
+    const auto touches = static_cast<std::size_t>(
+        std::count_if(ran.pieces.begin(), ran.pieces.begin() + static_cast<std::ptrdiff_t>(mark.pieces),
+                      [](const verify::Piece& piece) { return piece.kind == sim::PathKind::Measuring; }));
+    std::size_t measure = 0;
+    for (std::size_t before = 0; measure < got.parts.size(); ++measure)
+      if ((before += got.parts[measure].touches.size()) >= touches) break;
+    if (measure >= std::min(got.record.measures.size(), source.measures.size())) continue;
+    Measure& late = got.record.measures[measure];
+    if (!late.datums.empty()) continue;
+    Point3 zero = mark.zero;
+    for (const auto& [key, value] : source.measures[measure].datums)
+      late.datums[{kActive, key.second}] = part(zero, key.second);
+    if (!late.datums.empty()) late.datumRange = mark.range;
+  }
+}
+
 } // namespace
 
 std::vector<verify::Difference> compareWithSource(verify::Record source, const verify::Record& ran,
@@ -257,6 +278,7 @@ std::vector<verify::Difference> compareWithSource(verify::Record source, const v
                          want.contacts.size() < std::max<std::size_t>(1, want.nominal.size());
     meaning.read(want, got.record.measures[i], got.parts[i], stopped);
   }
+  if (!facts.byOperator) lateDatums(source, ran, got);
   for (const Mark& mark : got.loose)
     meaning.own.push_back(
         {mark.kind == Mark::Kind::Datum ? Aspect::Offset : Aspect::Contact,
