@@ -148,6 +148,7 @@ void CaseRunner::addFinding(CaseResult& result, const verify::Difference& differ
   finding.pair = CaseFinding::Pair::PathAndPost;
   finding.aspect = difference.aspect;
   finding.text = difference.text;
+  finding.subject = difference.subject;
   finding.source = difference.source;
   finding.posted = sourceOf(difference.target, values);
   result.findings.push_back(std::move(finding));
@@ -283,6 +284,7 @@ void CaseRunner::takeRun(CaseResult& result, TargetRun ran, const Values& values
     CaseFinding finding;
     if (routine_ == nullptr) finding.pair = CaseFinding::Pair::PathAndTranslation;
     finding.aspect = one.difference.aspect;
+    finding.subject = one.difference.subject;
     finding.text = one.difference.text + (one.text.empty() ? "" : ", in `" + one.text + "`");
     // Without a Prog it is the place in the macro.
     finding.source = values.rejected       ? values.rejectedAt

@@ -66,6 +66,7 @@ struct CaseFinding {
   SourceRange source;
   SourceRange posted;           // beside a path: the Prog's line
   std::uint32_t targetLine = 0; // from 1; 0: none
+  std::string subject = {};     // as of verify::Difference
 };
 
 // Refused: the translation raises an alarm of its own before anything moves. NoProgram: the source prints

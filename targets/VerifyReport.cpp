@@ -78,6 +78,14 @@ bool saysTheSame(const std::string& one, const std::string& simpler) {
   return a.words == b.words && b.apart <= kLarger * a.apart;
 }
 
+// Which system or tool it is may be drawn: one statement, one difference, but for the axes.
+std::string keptSubject(const CaseFinding& finding) {
+  const std::string& subject = finding.subject;
+  if (finding.aspect == verify::Aspect::Variable || subject.empty()) return subject;
+  const std::string side = subject.starts_with("only ") ? "only " : "";
+  return finding.aspect == verify::Aspect::Offset ? side + subject.back() : side;
+}
+
 bool before(const SourceRange& a, const SourceRange& b) {
   return std::pair(a.file, a.begin) < std::pair(b.file, b.begin);
 }
@@ -90,7 +98,8 @@ VerifyReport::Key VerifyReport::keyOf(bool edge, const CaseFinding& finding) {
           finding.aspect,
           finding.source.file,
           finding.source.begin,
-          finding.targetLine != 0 ? finding.targetLine : finding.posted.begin};
+          finding.targetLine != 0 ? finding.targetLine : finding.posted.begin,
+          keptSubject(finding)};
 }
 
 void VerifyReport::add(std::uint64_t number, bool edge, verify::Case drawn, CaseResult result) {

@@ -51,7 +51,8 @@ private:
     std::uint64_t agree = 0, undecided = 0, differ = 0, refused = 0, none = 0;
     std::uint64_t all() const { return agree + undecided + differ + refused + none; }
   };
-  using Key = std::tuple<bool, CaseFinding::Pair, verify::Aspect, FileId, std::uint32_t, std::uint32_t>;
+  using Key =
+      std::tuple<bool, CaseFinding::Pair, verify::Aspect, FileId, std::uint32_t, std::uint32_t, std::string>;
 
   static Key keyOf(bool edge, const CaseFinding& finding);
   bool stillDiffers(const verify::Case& drawn, const CaseFinding& finding);

@@ -129,17 +129,36 @@ private:
   }
 
   // Where a bend is as small as the tolerance, one side may go straight on and the other end a piece there.
-  void splitAlike(const std::vector<Piece>& shorter, std::vector<Piece>& longer, std::size_t i) const {
+  // So it may where it goes on with another feed, or something else on. `ran`: the side of the longer piece.
+  void splitAlike(const std::vector<Piece>& shorter, std::vector<Piece>& longer, std::size_t i,
+                  const Record& ran) const {
     if (i + 1 >= shorter.size()) return;
     const Piece &one = shorter[i], &next = shorter[i + 1], &other = longer[i];
-    if (next.kind != one.kind || next.with != one.with || next.feed != one.feed) return;
+    if (next.kind != one.kind) return;
+    if ((next.with != one.with || next.feed != one.feed) &&
+        !between(one.from, one.to, next.to, 2 * rules_.tolerance))
+      return;
     if (one.kind != other.kind || one.kind == sim::PathKind::Measuring ||
         !near(one.from, other.from, rules_.tolerance) || near(one.to, other.to, rules_.tolerance) ||
         !between(other.from, one.to, other.to, 2 * rules_.tolerance))
       return;
     Piece rest = other;
     rest.from = longer[i].to = one.to;
+    rest.range = rangeFrom(ran, other, rest.from);
     longer.insert(longer.begin() + static_cast<std::ptrdiff_t>(i) + 1, std::move(rest));
+  }
+
+  // Of the pieces that were joined the one that goes on from a place.
+  SourceRange rangeFrom(const Record& record, const Piece& joined, const Point3& place) const {
+    for (std::size_t n = firstOf(record, joined); n < record.pieces.size(); ++n) {
+      const Piece& one = record.pieces[n];
+      if (one.kind != joined.kind) break;
+      if (near(one.to, place, 2 * rules_.tolerance)) continue;
+      if (near(one.from, place, 2 * rules_.tolerance) ||
+          between(one.from, place, one.to, 2 * rules_.tolerance))
+        return one.range;
+    }
+    return joined.range;
   }
 
   // So short that the last digits of its ends decide whether it is one.
@@ -187,7 +206,7 @@ private:
       const bool same = a[i].kind == b[i].kind && near(a[i].from, b[i].from, rules_.tolerance) &&
                         (cut || near(a[i].to, b[i].to, rules_.tolerance));
       if (!same) {
-        addMoves(a[i], b[i]);
+        if (!writtenApart(a, b, i)) addMoves(a[i], b[i]);
         return;
       }
       if (cut && !framesText(a[i], b[i]).empty()) {
@@ -205,6 +224,32 @@ private:
       }
       ++measure;
     }
+    if (out_.empty()) writtenApart(a, b, std::min(a.size(), b.size()));
+  }
+
+  // An offset that was written before the piece moves what follows.
+  bool writtenApart(const std::vector<Piece>& a, const std::vector<Piece>& b, std::size_t i) {
+    if (rules_.atMeasures) return false;
+    const auto before = [i](const Record& record, const std::vector<Piece>& joined) {
+      const bool measures = i < joined.size() && joined[i].kind == sim::PathKind::Measuring;
+      const std::size_t own = i < joined.size() ? firstOf(record, joined[i]) : record.pieces.size();
+      if (measures) return own == 0 ? 0 : own - 1;
+      const std::size_t next = i + 1 < joined.size() ? firstOf(record, joined[i + 1]) : own;
+      return std::max(own, next == 0 ? next : next - 1);
+    };
+    std::optional<Difference> found =
+        earlierOffset(source_, target_, rules_, before(source_, a), before(target_, b));
+    if (!found) return false;
+    addFirst(out_, std::move(*found));
+    return true;
+  }
+
+  // Of the pieces that were joined, where the first one is in the record.
+  static std::size_t firstOf(const Record& record, const Piece& joined) {
+    const auto found = std::find_if(record.pieces.begin(), record.pieces.end(), [&](const Piece& one) {
+      return one.range == joined.range && one.kind == joined.kind && near(one.from, joined.from, 0);
+    });
+    return static_cast<std::size_t>(found - record.pieces.begin());
   }
 
   // Other coordinates than those of the source; "" where they are the same.
@@ -269,8 +314,8 @@ private:
             a[i].range, b.empty() ? SourceRange{} : b.back().range);
         return;
       }
-      splitAlike(a, b, i);
-      splitAlike(b, a, i);
+      splitAlike(a, b, i, target_);
+      splitAlike(b, a, i, source_);
       dropVanished(a, b, i);
       dropVanished(b, a, i);
       const bool last = i + 1 == a.size() && i + 1 == b.size();

@@ -31,7 +31,10 @@ struct Difference {
   Aspect aspect = Aspect::Path;
   std::string text;           // "Z 4.000 against 5.000": the source first
   SourceRange source, target; // in the programs that ran; may be without a place
+  std::string subject = {};   // of several that an aspect may have: "G54 X", "#600"; "": of the first one
 };
+
+inline constexpr std::size_t kMostOfAspect = 12; // of these subjects
 
 struct CompareRules {
   double tolerance = 1e-6; // mm; also of degrees and variables
@@ -63,8 +66,9 @@ struct CompareRules {
                       // does not
 };
 
-// The first difference of each aspect, in the order of the aspects. Of a different ending only what the two
-// did differently before it, and that they end so, or that alone.
+// The first difference of each aspect, and each offset and variable that differs, in the order of the
+// aspects. Of a different ending only what the two did differently before it, and that they end so, or that
+// alone.
 std::vector<Difference> compare(const Record& source, const Record& target, const CompareRules& rules);
 
 // How it ended, for people: "it ends", "alarm 3093 (PROBE FAIL)".

@@ -21,6 +21,13 @@ namespace {
 
 constexpr int kShown = 6; // decimals
 
+bool sameWrite(const Write& a, const Write& b, const CompareRules& rules) {
+  if (sim::isUnknown(a.value) || sim::isUnknown(b.value)) return true;
+  if (sim::isNull(a.value) || sim::isNull(b.value)) return sim::isNull(a.value) == sim::isNull(b.value);
+  return std::abs(a.value - b.value) <=
+         std::max({rules.results, rules.angles, rules.relative * std::abs(a.value)});
+}
+
 class LeftComparison {
 public:
   LeftComparison(const Record& source, const Record& target, const CompareRules& rules)
@@ -39,28 +46,101 @@ public:
   }
 
 private:
-  void add(Aspect aspect, std::string text, SourceRange source, SourceRange target) {
-    addFirst(out_, {aspect, std::move(text), source, target});
+  using Writes = std::vector<Write>;
+  using Zero = std::pair<std::uint32_t, std::uint32_t>; // key of Record::zeros
+
+  struct Written {
+    const Writes *source = nullptr, *target = nullptr; // nullptr: nothing
+    bool known = true;                                 // else only that it was written
+    bool offset = true;                                // no variable
+    bool bySource() const { return source != nullptr; }
+    bool byTarget() const { return target != nullptr; }
+  };
+
+  // false: there are enough of the aspect.
+  bool add(Aspect aspect, std::string subject, std::string text, const Written& written) {
+    const auto [source, target] = apart(written);
+    // What the source writes instead is another difference of the same statement.
+    if (written.byTarget() && !written.bySource()) subject.insert(0, "only ");
+    addFirst(out_, {aspect, std::move(text), source, target, std::move(subject)});
+    return static_cast<std::size_t>(std::count_if(out_.begin(), out_.end(), [&](const Difference& one) {
+             return one.aspect == aspect;
+           })) < kMostOfAspect;
   }
 
-  // Where a side wrote it last. Where that is not known, what follows the last measure made it.
-  template <class Key>
-  static SourceRange writtenIn(const Record& record, const std::map<Key, SourceRange>& places,
-                               const Key& key) {
-    const auto found = places.find(key);
-    return found == places.end() ? lastMeasure(record) : found->second;
+  template <class Key> static const Writes* writesOf(const std::map<Key, Writes>& all, const Key& key) {
+    const auto found = all.find(key);
+    return found == all.end() ? nullptr : &found->second;
   }
-  static SourceRange zeroIn(const Record& record, const std::pair<std::uint32_t, std::uint32_t>& key) {
-    const char axis = "XYZ"[key.second];
-    const std::string name = fmt::format("{} {}", systemName(key.first), axis);
-    return writtenIn(record, record.offsetAt,
-                     record.offsetAt.contains(name) ? name : fmt::format("external {}", axis));
+  Written writtenOffset(const std::string& name) const {
+    return {writesOf(source_.offsetWrites, name), writesOf(target_.offsetWrites, name)};
   }
-  static SourceRange toolIn(const Record& record, std::uint32_t number) {
-    const bool radius = number > kRadiusTable;
-    return writtenIn(
-        record, record.offsetAt,
-        fmt::format("{}tool {}", radius ? "radius of " : "", radius ? number - kRadiusTable : number));
+  Written writtenZero(const Zero& key) const {
+    const Written out = writtenOffset(subjectOf(key));
+    return out.bySource() || out.byTarget() ? out
+                                            : writtenOffset(fmt::format("external {}", "XYZ"[key.second]));
+  }
+  static std::string subjectOf(const Zero& key) {
+    return fmt::format("{} {}", systemName(key.first), "XYZ"[key.second]);
+  }
+  Written writtenStore(std::uint32_t number) const {
+    return {writesOf(source_.storeWrites, number), writesOf(target_.storeWrites, number),
+            source_.knowsStores && target_.knowsStores, false};
+  }
+
+  // Where the two first write it differently. Of what nobody writes by itself, what follows the last measure
+  // made it.
+  std::pair<SourceRange, SourceRange> apart(const Written& written) const {
+    if (!written.known || (!written.bySource() && !written.byTarget()))
+      return {written.bySource() ? written.source->back().range : lastMeasure(source_),
+              written.byTarget() ? written.target->back().range : lastMeasure(target_)};
+    static const Writes kNone;
+    const Writes& a = written.bySource() ? *written.source : kNone;
+    const Writes& b = written.byTarget() ? *written.target : kNone;
+    std::size_t n = 0;
+    while (n < std::min(a.size(), b.size()) && sameWrite(a[n], b[n], rules_))
+      ++n;
+    const bool here = n < a.size(), there = n < b.size();
+    if (!here && !there) return {a.back().range, b.back().range};
+    if (!there) return {a[n].range, instead(written, a[n].range, true)};
+    if (!here) return {instead(written, b[n].range, false), b[n].range};
+    if (a.size() == b.size()) return {a[n].range, b[n].range};
+    // One side writes more often. What it writes here may be what the other lacks, as far as measures or the
+    // places that lines stem from show it; else what comes last counts.
+    const bool more = a.size() > b.size();
+    const SourceRange own = more ? a[n].range : b[n].range, paired = more ? b[n].range : a[n].range;
+    const SourceRange beside = more ? alongside(source_, target_, own) : alongside(target_, source_, own);
+    if (beside.hasPlace() ? beside == paired : mayPair(a[n], b[n])) return {a.back().range, b.back().range};
+    return more ? std::pair(own, beside) : std::pair(beside, own);
+  }
+
+  bool mayPair(const Write& a, const Write& b) const {
+    return !rules_.samePlace || !a.range.hasPlace() || rules_.samePlace(a.range, b.range);
+  }
+
+  // Where the other side, in the place of a write, writes what this one does not write at all; else what it
+  // measures there. `ofSource`: whose write it is.
+  SourceRange instead(const Written& written, SourceRange range, bool ofSource) const {
+    const Record &one = ofSource ? source_ : target_, &other = ofSource ? target_ : source_;
+    const auto find = [&](const auto& mine, const auto& theirs) -> SourceRange {
+      for (const auto& [name, writes] : theirs)
+        for (const Write& write : writes)
+          if (!mine.contains(name) && write.range.hasPlace() &&
+              (ofSource ? rules_.samePlace(range, write.range) : rules_.samePlace(write.range, range)))
+            return write.range;
+      return {};
+    };
+    const SourceRange found = !rules_.samePlace || !range.hasPlace() ? SourceRange{}
+                              : written.offset ? find(one.offsetWrites, other.offsetWrites)
+                                               : find(one.storeWrites, other.storeWrites);
+    return found.hasPlace() ? found : alongside(one, other, range);
+  }
+
+  // What the other side does in the place of a measure that writes something.
+  static SourceRange alongside(const Record& one, const Record& other, SourceRange range) {
+    for (std::size_t i = 0; i < std::min(one.measures.size(), other.measures.size()); ++i)
+      if (one.measures[i].range == range) return other.measures[i].range;
+    return {};
   }
 
   void zeros() {
@@ -71,15 +151,20 @@ private:
       const bool shift = key.first == 52 || key.first == 92;
       const std::string what = fmt::format("{} {} along {}", shift ? "what" : "the zero of",
                                            systemName(key.first), "XYZ"[key.second]);
+      const Written written = writtenZero(key);
       const std::string where = fixedText(value, kShown);
-      add(Aspect::Offset,
-          other == target_.zeros.end()
-              ? fmt::format("the source moves {} to {}, the translation does not", what, where)
-              : fmt::format("{} {} {}{} against {}", what,
-                            shift ? "has shifted all work systems by is" : "lies at", where,
-                            shift ? "" : " of the machine", fixedText(other->second, kShown)),
-          zeroIn(source_, key), zeroIn(target_, key));
-      return;
+      std::string text;
+      if (other == target_.zeros.end() || (!shift && written.bySource() && !written.byTarget()))
+        text = fmt::format("the source moves {} to {}{}, the translation does not", what, where,
+                           other == target_.zeros.end() ? "" : " of the machine");
+      else if (!shift && written.byTarget() && !written.bySource())
+        text = fmt::format("the translation moves {} to {} of the machine, the source does not", what,
+                           fixedText(other->second, kShown));
+      else
+        text = fmt::format("{} {} {}{} against {}", what,
+                           shift ? "has shifted all work systems by is" : "lies at", where,
+                           shift ? "" : " of the machine", fixedText(other->second, kShown));
+      if (!add(Aspect::Offset, subjectOf(key), std::move(text), written)) return;
     }
   }
 
@@ -87,11 +172,11 @@ private:
   void otherZeros() {
     for (const auto& [key, value] : target_.zeros) {
       if (key.first <= kExtendedSystem || source_.zeros.contains(key)) continue;
-      add(Aspect::Offset,
-          fmt::format("the translation moves the zero of {} along {} to {}, the source does not",
-                      systemName(key.first), "XYZ"[key.second], fixedText(value, kShown)),
-          zeroIn(source_, key), zeroIn(target_, key));
-      return;
+      if (!add(Aspect::Offset, subjectOf(key),
+               fmt::format("the translation moves the zero of {} along {} to {}, the source does not",
+                           systemName(key.first), "XYZ"[key.second], fixedText(value, kShown)),
+               writtenZero(key)))
+        return;
     }
   }
 
@@ -123,12 +208,14 @@ private:
     for (const std::uint32_t number : numbers) {
       const std::optional<Entry> one = entry(source_, number), other = entry(target_, number);
       if (!differs(one, other)) continue;
-      add(Aspect::Tool,
-          fmt::format("{}tool offset {}: the source {}, the translation {}",
-                      number > kRadiusTable ? "radius of " : "",
-                      number > kRadiusTable ? number - kRadiusTable : number, tell(one), tell(other)),
-          toolIn(source_, number), toolIn(target_, number));
-      return;
+      const std::string_view radius = number > kRadiusTable ? "radius of " : "";
+      const std::uint32_t tool = number > kRadiusTable ? number - kRadiusTable : number;
+      const std::string subject = fmt::format("{}tool {}", radius, tool);
+      if (!add(Aspect::Tool, subject,
+               fmt::format("{}tool offset {}: the source {}, the translation {}", radius, tool, tell(one),
+                           tell(other)),
+               writtenOffset(subject)))
+        return;
     }
   }
 
@@ -140,9 +227,9 @@ private:
       const bool both = one != source_.stores.end() && other != target_.stores.end();
       if (both && isNumber(one->second) && isNumber(other->second)) {
         const ShownNumbers shown = shownNumbers(one->second, other->second);
-        add(Aspect::Variable, fmt::format("#{} is {} against {}", number, shown.source, shown.target),
-            writtenIn(source_, source_.storedAt, number), writtenIn(target_, target_.storedAt, number));
-        return;
+        return add(Aspect::Variable, fmt::format("#{}", number),
+                   fmt::format("#{} is {} against {}", number, shown.source, shown.target),
+                   writtenStore(number));
       }
       const auto left = [&](const std::map<std::uint32_t, double>& stores, const auto& found) {
         if (found == stores.end()) return std::string("does not write it");
@@ -150,10 +237,10 @@ private:
         if (sim::isNull(found->second)) return std::string("leaves it null");
         return "leaves it at " + shownNumbers(found->second, found->second + 1).source;
       };
-      add(Aspect::Variable,
-          fmt::format("#{}: the source {}, the translation {}", number, left(source_.stores, one),
-                      left(target_.stores, other)),
-          writtenIn(source_, source_.storedAt, number), writtenIn(target_, target_.storedAt, number));
+      return add(Aspect::Variable, fmt::format("#{}", number),
+                 fmt::format("#{}: the source {}, the translation {}", number, left(source_.stores, one),
+                             left(target_.stores, other)),
+                 writtenStore(number));
     };
     for (const auto& [number, value] : source_.stores) {
       const auto other = target_.stores.find(number);
@@ -166,14 +253,11 @@ private:
                                                                   rules_.relative * std::abs(value)})))
           continue;
       }
-      differ(number);
-      return;
+      if (!differ(number)) return;
     }
     if (!rules_.sameProgram) return;
     for (const auto& [number, value] : target_.stores) {
-      if (source_.stores.contains(number)) continue;
-      differ(number);
-      return;
+      if (!source_.stores.contains(number) && !differ(number)) return;
     }
   }
 
@@ -185,9 +269,11 @@ private:
     for (std::size_t group = 1; group < source_.modalAfter.size(); ++group) {
       const std::uint32_t one = source_.modalAfter[group], other = target_.modalAfter[group];
       if (one == other || (rules_.mayRestoreModes && other == target_.modalBefore[group])) continue;
-      add(Aspect::Modal,
-          fmt::format("G{} of group {} against G{}", numberText(one / 10.0), group, numberText(other / 10.0)),
-          {}, {});
+      addFirst(out_, {Aspect::Modal,
+                      fmt::format("G{} of group {} against G{}", numberText(one / 10.0), group,
+                                  numberText(other / 10.0)),
+                      {},
+                      {}});
       return;
     }
   }
@@ -213,9 +299,11 @@ private:
       const std::uint32_t other = target_.modalAfter[theirs];
       if (other == meant->tenths || (rules_.mayRestoreModes && other == target_.modalBefore[theirs]))
         continue;
-      add(Aspect::Modal,
-          fmt::format("G{} of group {} against G{}", numberText(one / 10.0), group, numberText(other / 10.0)),
-          {}, {});
+      addFirst(out_, {Aspect::Modal,
+                      fmt::format("G{} of group {} against G{}", numberText(one / 10.0), group,
+                                  numberText(other / 10.0)),
+                      {},
+                      {}});
       return;
     }
   }
@@ -229,8 +317,9 @@ private:
 } // namespace
 
 void addFirst(std::vector<Difference>& list, Difference one) {
-  const bool there = std::any_of(list.begin(), list.end(),
-                                 [&](const Difference& other) { return other.aspect == one.aspect; });
+  const bool there = std::any_of(list.begin(), list.end(), [&](const Difference& other) {
+    return other.aspect == one.aspect && other.subject == one.subject;
+  });
   if (!there) list.push_back(std::move(one));
 }
 
@@ -270,6 +359,34 @@ std::vector<Difference> compareIdleMoves(const Record& source, const Record& tar
                      fmt::format("P{} called with {} {} against {}", a[i].program, letter,
                                  word(valueOf(a[i], local)), word(valueOf(b[i], local))),
                      a[i].range, b[i].range});
+    }
+  }
+  return out;
+}
+
+std::optional<Difference> earlierOffset(const Record& source, const Record& target, const CompareRules& rules,
+                                        std::size_t sourcePieces, std::size_t targetPieces) {
+  std::optional<Difference> out;
+  std::size_t first = 0; // pieces before it
+  for (const auto& [name, a] : source.offsetWrites) {
+    const auto found = target.offsetWrites.find(name);
+    if (found == target.offsetWrites.end()) continue;
+    const std::vector<Write>& b = found->second;
+    const auto until = [](const std::vector<Write>& all, std::size_t pieces) {
+      return std::count_if(all.begin(), all.end(), [&](const Write& one) { return one.pieces <= pieces; });
+    };
+    const auto count = static_cast<std::size_t>(until(a, sourcePieces));
+    if (until(b, targetPieces) != static_cast<std::ptrdiff_t>(count)) continue;
+    for (std::size_t n = 0; n < count; ++n) {
+      if (sameWrite(a[n], b[n], rules)) continue;
+      if (out && first <= a[n].pieces) break;
+      first = a[n].pieces;
+      const bool ofTool = name.find("tool") != std::string::npos;
+      out = {ofTool ? Aspect::Tool : Aspect::Offset,
+             fmt::format("{} is {} {} against {}", name, ofTool ? "changed by" : "set to",
+                         fixedText(a[n].value, kShown), fixedText(b[n].value, kShown)),
+             a[n].range, b[n].range, name};
+      break;
     }
   }
   return out;

@@ -3,7 +3,9 @@
 
 #include "verify/Compare.h"
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,7 +18,10 @@ std::string systemName(std::uint32_t system);
 // feed.
 std::vector<Difference> compareIdleMoves(const Record& source, const Record& target,
                                          const CompareRules& rules);
-// Work offsets, tool offsets and variables: the first difference of each.
+// The first offset that the two wrote differently before they had made more than so many pieces.
+std::optional<Difference> earlierOffset(const Record& source, const Record& target, const CompareRules& rules,
+                                        std::size_t sourcePieces, std::size_t targetPieces);
+// Work offsets, tool offsets and variables: each that differs, at most kMostOfAspect.
 std::vector<Difference> compareValues(const Record& source, const Record& target, const CompareRules& rules);
 // The modal groups in force at the end.
 std::vector<Difference> compareModes(const Record& source, const Record& target, const CompareRules& rules);

@@ -9,7 +9,7 @@
 
 namespace dotek::verify {
 
-// Adds it where nothing of its aspect is in the list.
+// Adds it where nothing of its aspect and subject is in the list.
 void addFirst(std::vector<Difference>& list, Difference one);
 
 // All outlive it.
@@ -17,7 +17,7 @@ struct ComparedPair {
   const Record& source;
   const Record& target;
   const CompareRules& rules;
-  std::vector<Difference>& out; // the first of each aspect
+  std::vector<Difference>& out; // the first of each aspect and subject
 
   void add(Aspect aspect, std::string text, SourceRange here, SourceRange there) const {
     addFirst(out, {aspect, std::move(text), here, there});

@@ -154,6 +154,13 @@ struct SwitchCall {
   SourceRange range;
 };
 
+// A variable or an offset got a value.
+struct Write {
+  double value = 0; // sim::kUnknown: not known; of a tool's offset by how much it changes
+  SourceRange range;
+  std::size_t pieces = 0; // that came before it; of a variable not looked at
+};
+
 enum class Ending : std::uint8_t { Finished, Alarm, Inconclusive };
 
 struct Record {
@@ -182,9 +189,11 @@ struct Record {
   std::map<std::uint32_t, sim::Machine::ToolOffset> tools; // entries of the tool table that were changed
   std::optional<std::uint32_t> tool;                       // that T has named last; nothing: that at entry
   std::map<std::uint32_t, double> stores; // variables that the program itself writes; kNull is a value
-  // Where these, and offsets ("G54 X", "tool 5", "radius of tool 5"), were written last; none: not known.
-  std::map<std::uint32_t, SourceRange> storedAt;
-  std::map<std::string, SourceRange> offsetAt;
+  // How these, and offsets ("G54 X", "tool 5", "radius of tool 5"), were written, in order; of very many the
+  // first ones and the last.
+  std::map<std::uint32_t, std::vector<Write>> storeWrites;
+  std::map<std::string, std::vector<Write>> offsetWrites;
+  bool knowsStores = false; // where variables are written is known
   // Of the variables that are watched (Stand::watchStores) those that it leaves with another value.
   std::map<std::uint32_t, double> strays;
   std::string printed; // by DPRNT and BPRNT, bytes

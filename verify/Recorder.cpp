@@ -466,7 +466,13 @@ void Recorder::offsetWritten(const sim::OffsetWrite& write) {
     const bool radius = name.find(" radius") != std::string::npos;
     name = (radius ? "radius of " : "") + name.substr(0, name.find(' ', 5));
   }
-  record_.offsetAt[name] = call_.depth > 0 ? call_.range : place();
+  constexpr std::size_t kMost = 64;
+  std::vector<Write>& all = record_.offsetWrites[name];
+  if (all.size() == kMost) all.pop_back();
+  all.push_back({name.ends_with(" X") || name.ends_with(" Y") || name.ends_with(" Z")
+                     ? write.after
+                     : write.after - write.before,
+                 call_.depth > 0 ? call_.range : place(), record_.pieces.size()});
 }
 
 Record Recorder::finish(const std::set<std::uint32_t>& stores) {
@@ -527,9 +533,13 @@ Record Recorder::finish(const std::set<std::uint32_t>& stores) {
     const double value = machine_.common(number);
     if (sim::isFresh(value)) continue;
     record_.stores.emplace(number, value);
-    if (const SourceRange at = run_ != nullptr ? run_->lastWrite(number) : SourceRange{}; at.hasPlace())
-      record_.storedAt.emplace(number, at);
+    if (run_ == nullptr) continue;
+    std::vector<Write> writes;
+    for (const sim::Run::Written& one : run_->writesOf(number))
+      writes.push_back({one.value, one.range});
+    if (!writes.empty()) record_.storeWrites.emplace(number, std::move(writes));
   }
+  record_.knowsStores = run_ != nullptr;
   const auto same = [](double one, double other) {
     const auto unset = [](double value) { return sim::isFresh(value) || sim::isNull(value); };
     return one == other || (unset(one) && unset(other)) || (sim::isUnknown(one) && sim::isUnknown(other));

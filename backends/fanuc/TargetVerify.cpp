@@ -263,12 +263,14 @@ void FanucVerification::compareRecords(const TargetCase& now, const verify::Reco
     out.undecided = true;
   else
     add(verify::compare(source, record, rules), out);
-  if (!out.undecided && out.differences.empty()) compareStrays(now, record, out);
+  const bool ended = source.ending == verify::Ending::Finished && record.ending == verify::Ending::Finished;
+  if (!out.undecided && (ended || out.differences.empty())) compareStrays(now, record, out);
   if (!out.undecided && out.differences.empty()) compareReturn(record, &source, out);
 }
 
 void FanucVerification::compareStrays(const TargetCase& now, const verify::Record& record,
                                       TargetRun& out) const {
+  std::size_t told = 0;
   for (const auto& [number, value] : record.strays) {
     if (now.stores.contains(number)) continue;
     out.differsAt(verify::Aspect::Variable,
@@ -277,7 +279,8 @@ void FanucVerification::compareStrays(const TargetCase& now, const verify::Recor
                               : sim::isUnknown(value) ? "a value that is not known"
                                                       : "it at " + numberText(value)),
                   stored_.at(number));
-    return;
+    out.differences.back().difference.subject = fmt::format("#{}", number);
+    if (++told == verify::kMostOfAspect) return;
   }
 }
 

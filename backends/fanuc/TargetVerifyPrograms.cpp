@@ -465,6 +465,7 @@ CaseResult ProgramRunner::run(const verify::Case& drawn) {
     CaseFinding finding;
     finding.aspect = one.aspect;
     finding.text = one.text;
+    finding.subject = one.subject;
     finding.source = inSource(one.source);
     finding.targetLine = translation_.line(one.target);
     result.findings.push_back(std::move(finding));

@@ -198,7 +198,7 @@ void Run::run() {
   for (bool goesOn = true; goesOn;) {
     followsMisses_ = followsMisses_ || (misses_ != nullptr && misses_->hasMisses());
     if (machine_.hasUnknown() || !unset_.empty() || followsMisses_ || !measured_.empty() || trail_ ||
-        !lastWrites_.empty())
+        !writes_.empty())
       goesOn = decimal ? execute<true, true>() : execute<false, true>();
     else
       goesOn = decimal ? execute<true, false>() : execute<false, false>();
@@ -211,8 +211,8 @@ bool Run::knows(std::uint32_t cell) {
       fmt::format("#{} is read, and what a macro left there is not known", machine_.layout().numberOf(cell)));
 }
 
-void Run::noteWritten(std::uint32_t cell) {
-  if (cell < lastWrites_.size()) lastWrites_[cell] = place_;
+void Run::noteWritten(std::uint32_t cell, bool done) {
+  if (cell < watchedWrites_.size() && watchedWrites_[cell] != 0) keepWrite(cell, done);
 }
 
 void Run::noteUnsetCell(std::uint32_t cell) {
@@ -264,9 +264,9 @@ bool Run::writeAt(double number, double value) {
   if (!(whole >= 0 && whole < 1e9)) return machine_.raise(Alarm::NoSuchVariable);
   const auto n = static_cast<std::uint32_t>(whole);
   if (ahead_ && expectsMotion_) noteWrite(n);
+  noteWritten(machine_.layout().cellOf(n));
   if (!machine_.write(n, value)) return false;
   measured_.erase(machine_.layout().cellOf(n));
-  noteWritten(machine_.layout().cellOf(n));
   if (listener_ != nullptr) tellWritten(n, value);
   return true;
 }

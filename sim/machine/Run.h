@@ -54,9 +54,14 @@ public:
   // Before the run: notes where one of these common variables counts as 0, since nobody has set it. A run
   // that watches takes longer.
   void watchUnset(std::set<std::uint32_t> numbers) { unset_ = std::move(numbers); }
-  // Before the run: notes where common variables are written last. Such a run takes longer, too.
-  void watchWrites() { lastWrites_.assign(machine_.layout().size(), kNoCell); }
-  SourceRange lastWrite(std::uint32_t number) const; // without a place: nowhere, or nobody watches
+  // Before the run: notes where these common variables are written, and what. Such a run takes longer, too.
+  void watchWrites(const std::set<std::uint32_t>& numbers);
+  struct Written {
+    double value = 0; // kUnknown: a macro without text has written over it at once
+    SourceRange range;
+  };
+  // After the run, in its order; of very many the first ones and the last.
+  std::vector<Written> writesOf(std::uint32_t number) const;
   // Before the run: values are followed that come from where a skip move
   // has ended that met nothing. The watcher outlives the run.
   void watchMisses(MissWatcher* watcher);
@@ -107,8 +112,10 @@ private:
 
   // Watched: a cell may hold what a macro left and nobody knows; who reads it ends the run.
   template <bool kDecimal8, bool kWatched> bool execute();
-  bool knows(std::uint32_t cell);       // false: it does not, and the run has ended
-  void noteWritten(std::uint32_t cell); // by the instruction that runs
+  bool knows(std::uint32_t cell); // false: it does not, and the run has ended
+  // By the instruction that runs, which has yet to write; `done`: it has.
+  void noteWritten(std::uint32_t cell, bool done = false);
+  void keepWrite(std::uint32_t cell, bool done);
   void noteUnset(std::uint32_t number);
   void noteUnsetCell(std::uint32_t cell);
   void tellRead(std::uint32_t number, double value);
@@ -237,8 +244,13 @@ private:
   std::uint64_t passes_ = 0;
   std::vector<double> lastPass_; // the machine as the last pass began
   std::map<std::uint64_t, std::string> unreadable_;
-  std::vector<bool> readEarly_;           // by instruction
-  std::vector<std::uint32_t> lastWrites_; // by cell: the place of the instruction
+  std::vector<bool> readEarly_; // by instruction
+  struct Write {
+    std::uint32_t place = 0; // of the instruction
+    double value = 0;        // known once the next one comes
+  };
+  std::vector<std::uint32_t> watchedWrites_; // by cell: the index in writes_ and 1; 0: not watched
+  std::vector<std::vector<Write>> writes_;
 };
 
 } // namespace dotek::sim

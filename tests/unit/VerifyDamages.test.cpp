@@ -195,6 +195,32 @@ TEST_CASE("verify: the replay of a difference keeps planes that are one") {
   CHECK(!valueOf("clearance").empty());
 }
 
+TEST_CASE("verify: a limit of a whole number that a translation lacks is a difference") {
+  const ProcessFolder folder;
+  const ShellResult made = folder.run(
+      "cp -r " + cycle() +
+      " . && chmod -R u+w surface-x && sed -i 's/^if wrong = 1 then message.*/if R < 20 then wrong = 4\\n"
+      "if R > 60 then wrong = 4\\nif R <> INT(R) then wrong = 4\\n&\\n"
+      "if wrong = 4 then message \"Retract 20 to 60\"/' surface-x/CycleData.mac");
+  REQUIRE_MESSAGE(made.status == 0, made.err);
+  checkDamages(folder, "surface-x --prog " + (root() / "examples/post.txt").string(),
+               " --to fanuc --control fanuc-0i-md --probe-macros dotek", "nc",
+               {{"/ GT 60\\.\\]/d", "called with R 61: the dialog rejects the values"}});
+}
+
+TEST_CASE("verify: a register that is written wrongly is named beside the one that lacks it") {
+  const ProcessFolder folder;
+  const std::string head = "O9722\nIF[#1EQ#0]THEN#3000=1(A)\nG91G31Z-5.F50\nG90\n";
+  folder.write("a.nc", head + "#2005=#1\n#601=#1\nG4X1.\nM99\n");
+  folder.write("bad.nc", "%\n" + head + "#2006=#1\n#602=#1\nG4X1.\nM99\n%\n");
+  const std::string said = folder.run("dotek verify a.nc --to fanuc --translation bad.nc --cases 20").err;
+  for (const char* one :
+       {"a.nc:5:1: error: tool offset differs: tool offset 5:", "tool offset 6: the source does not write it",
+        "a.nc:6:1: error: variable differs: #601:", "#602: the source does not write it",
+        "bad.nc:6:1: note: of the translation", "bad.nc:7:1: note: of the translation"})
+    CHECK_MESSAGE(said.find(one) != std::string::npos, one, said);
+}
+
 TEST_CASE("verify: a difference of a variable names the statements that write it") {
   const ProcessFolder folder;
   const std::string body = "IF[#1EQ#0]THEN#3000=1(A)\nG0X#1\n#101=#1*2\n#5221=#5221+#1\n#103=#101*2\n"
