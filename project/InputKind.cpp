@@ -16,6 +16,7 @@ using View = std::string_view;
 
 constexpr View kUnknown = "no language that Dotek reads";
 constexpr View kListing = "listing";
+constexpr View kToml = "settings in TOML";
 constexpr int kMostLines = 2000;
 constexpr std::size_t kMostOfLine = 4096;
 constexpr int kLongestLeader = 12; // lines before the first `%`, or after the last
@@ -103,6 +104,62 @@ template <class Visit> void eachLine(View text, Visit&& visit) {
   }
 }
 
+View trimmed(View line) {
+  const std::size_t begin = line.find_first_not_of(" \t");
+  if (begin == View::npos) return {};
+  return line.substr(begin, line.find_last_not_of(" \t") + 1 - begin);
+}
+
+// name, or "name.with.dots"; quotes are not looked into.
+bool isTomlName(View text) {
+  return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
+    return isDigit(c) || isLetter(c) || View("_-.\"'* ").find(c) != View::npos;
+  });
+}
+
+// [table], [[table]], whose name has a small letter, which no part of a program in brackets has.
+bool isTomlTable(View line) {
+  line = trimmed(line.substr(0, line.find('#')));
+  const std::size_t depth = line.starts_with("[[") ? 2 : 1;
+  if (!line.starts_with('[') || line.size() <= 2 * depth || !line.ends_with(depth == 2 ? "]]" : "]"))
+    return false;
+  const View name = line.substr(depth, line.size() - 2 * depth);
+  return isTomlName(name) &&
+         std::any_of(name.begin(), name.end(), [](char c) { return c >= 'a' && c <= 'z'; });
+}
+
+// Tables of settings, or Dotek's mark, and nothing but them, settings and remarks: what a text is that holds
+// no program. "": something else.
+View settingsOf(View text) {
+  bool mark = false, table = false, other = false;
+  int settings = 0, open = 0; // brackets of a list that goes on
+  eachLine(text, [&](View raw) {
+    const View line = trimmed(raw);
+    if (other || line.empty() || line.starts_with('#')) return;
+    View value = line;
+    if (open == 0) {
+      if (isTomlTable(line)) {
+        table = true;
+        return;
+      }
+      const std::size_t equals = line.find('=');
+      value = equals == View::npos ? View() : trimmed(line.substr(equals + 1));
+      if (value.empty() || !isTomlName(trimmed(line.substr(0, equals)))) {
+        other = true;
+        return;
+      }
+      mark = mark || line.starts_with("schema =");
+      ++settings;
+      if (!value.starts_with('[') && !value.starts_with('{')) return;
+    }
+    open += static_cast<int>(
+        std::count_if(value.begin(), value.end(), [](char c) { return c == '[' || c == '{'; }));
+    open -= static_cast<int>(
+        std::count_if(value.begin(), value.end(), [](char c) { return c == ']' || c == '}'; }));
+  });
+  return other || settings == 0 ? View() : mark ? kToml : table ? kUnknown : View();
+}
+
 Evidence look(View text) {
   Evidence out;
   bool inComment = false;
@@ -173,6 +230,8 @@ Recognition recogniseText(View text, std::optional<InputKind> named, bool byName
   if (named == InputKind::DefineData) return {named, "its name is fixed in GibbsCAM"};
   if (auto other = otherFormat(text)) return {std::nullopt, std::move(*other)};
   if (byName && named == InputKind::Cycle) return {named, "its name"};
+  if (const View settings = byName ? View() : settingsOf(text); !settings.empty())
+    return {std::nullopt, std::string(settings)};
   const Evidence seen = look(text);
   const Tally& nc = seen.nc.tally;
   // Words of Mikroprog look like any NC, and its comments like those of other controls.
@@ -208,7 +267,7 @@ Recognition recogniseText(View text, std::optional<InputKind> named, bool byName
     score = std::max(score, one);
   }
   if (best) return {best, share(seen.of(*best), linesOf(*best))};
-  if (seen.schema) return {std::nullopt, "settings in TOML"};
+  if (seen.schema) return {std::nullopt, std::string(kToml)};
   if (named && *named != InputKind::Suf && seen.of(*named).lines == 0) return {named, "nothing but comments"};
   if (!byName && named == InputKind::Nc && quotes) return {std::nullopt, std::string(kUnknown)};
   if (named && seen.of(*named).share() >= 0.5) return {named, share(seen.of(*named), linesOf(*named))};
@@ -281,6 +340,8 @@ Recognition recognise(View fileName, View bytes, std::optional<InputKind> expect
   const std::size_t slash = fileName.find_last_of("/\\");
   auto named = kindOfName(upperCase(slash == View::npos ? fileName : fileName.substr(slash + 1)));
   const bool byName = named.has_value();
+  if (lowerCase(slash == View::npos ? fileName : fileName.substr(slash + 1)) == "dotek.toml")
+    return {std::nullopt, std::string(kToml)};
   if (!named) named = expected;
   View text = bytes.substr(0, kRecognisedBytes);
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);

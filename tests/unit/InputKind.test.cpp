@@ -181,6 +181,14 @@ TEST_CASE("input kind: what Dotek and others write beside programs is none") {
   CHECK(kindOf("<svg xmlns=\"x\">\n<path d=\"M0 0\"/></svg>\n") == "none: an SVG picture");
   CHECK(kindOf("<!doctype html><html></html>\n") == "none: HTML or XML");
   CHECK(kindOf("schema = 1\n[lint]\ncontrol = \"x\"\n") == "none: settings in TOML");
+  const std::string toml = "schema = 1\n[lint.severity]\ngoto-target-missing = \"note\"\n";
+  CHECK(kindOf(toml) == "none: settings in TOML");
+  CHECK(kindOf(toml, "./web.toml") == "none: settings in TOML");
+  CHECK(kindOf("if x then\n  y = 2\nend if\n", "a/dotek.toml") == "none: settings in TOML");
+  CHECK(kindOf("schema = 1\n\n# what is read\n[lint]\nselect = [\n  \"if-x\", # why\n  \"message-x\",\n]\n"
+               "[[lint.path]]\npath = \"a/**\"\nend-of = 1\nmessage-too-long = \"off\"\n") ==
+        "none: settings in TOML");
+  CHECK(kindOf("[goto]\ngoto-a = 1\nif-b = 2\nmessage-c = \"x\"\n", "shop.ini") == kNone);
   CHECK(kindOf("This is a letter to the shop.\nPlease check the program and call me.\n", "WEB.NC") == kNone);
 }
 
