@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 #include <utility>
+#include <vector>
 
 namespace dotek::lint::rule {
 namespace {
@@ -75,6 +76,59 @@ bool isAnnounced(const std::vector<ir::ProgramStatement>& body, std::size_t at) 
   return false;
 }
 
+// Of the first skip move: all that was done since a G91 before it are plain moves: a search that is meant to
+// count from where it begins. Nothing has gone back from a surface, after which a G90 could be forgotten.
+bool beginsSearch(const std::vector<ir::ProgramStatement>& body, std::size_t at) {
+  while (at-- > 0) {
+    if (callOf(body[at]) != nullptr || std::holds_alternative<ir::Loop>(body[at].node) ||
+        std::holds_alternative<ir::LoopEnd>(body[at].node))
+      return false;
+    const auto* block = std::get_if<ir::NcBlock>(&body[at].node);
+    if (block == nullptr) continue;
+    if (axesOf(*block) != 0 && !isPlainMove(*block)) return false;
+    if (hasCode(*block, 'G', 91)) return true;
+  }
+  return false;
+}
+
+// The value, or its opposite, is a term of the sum.
+bool isTermOf(const ir::ExpressionPtr& value, const ir::ExpressionPtr& sum) {
+  if (sum == nullptr) return false;
+  if (const auto* both = std::get_if<ir::Binary>(&sum->node);
+      both != nullptr && (both->op == ir::BinaryOp::Add || both->op == ir::BinaryOp::Subtract))
+    return isTermOf(value, both->left) || isTermOf(value, both->right);
+  if (const auto* one = std::get_if<ir::Unary>(&sum->node);
+      one != nullptr && (one->op == ir::UnaryOp::Negate || one->op == ir::UnaryOp::NullAsZero))
+    return isTermOf(value, one->operand);
+  if (const auto* one = std::get_if<ir::Unary>(&value->node);
+      one != nullptr && (one->op == ir::UnaryOp::Negate || one->op == ir::UnaryOp::NullAsZero))
+    return isTermOf(one->operand, sum);
+  const double* number = ir::constantValue(value);
+  const double* other = ir::constantValue(sum);
+  if (number != nullptr && other != nullptr) return std::abs(*number) == std::abs(*other);
+  return ir::equal(value, sum);
+}
+
+// An absolute skip move goes as far from a position: X[#10-20.] beside X20.
+bool isDistanceElsewhere(const ir::ProgramStatement& statement,
+                         const std::vector<const ir::NcBlock*>& absoluteSkips) {
+  const auto isSum = [](const ir::ExpressionPtr& value) {
+    return value != nullptr && std::holds_alternative<ir::Binary>(value->node);
+  };
+  bool any = false;
+  for (const ir::Word& word : std::get<ir::NcBlock>(statement.node).words) {
+    if (word.address < 'X' || word.address > 'Z' || word.value == nullptr) continue;
+    any = true;
+    const bool found = std::any_of(absoluteSkips.begin(), absoluteSkips.end(), [&](const ir::NcBlock* skip) {
+      return std::any_of(skip->words.begin(), skip->words.end(), [&](const ir::Word& other) {
+        return other.address == word.address && isSum(other.value) && isTermOf(word.value, other.value);
+      });
+    });
+    if (!found) return false;
+  }
+  return any;
+}
+
 // The skip moves look to both sides by the same distance, and one of them has lost its G91.
 void checkPairs(const NcProgram& nc, Report& report) {
   const auto& body = nc.program.body;
@@ -114,11 +168,16 @@ void check(const NcProgram& nc, Report& report) {
   const auto& modes = nc.modes();
   const auto modeOf = [&](std::size_t i) { return statedMode(body[i]).value_or(*modes[i]); };
   std::set<std::pair<char, double>> absolute;
-  bool absoluteSkip = false;
+  std::vector<const ir::NcBlock*> absoluteSkips;
+  const auto firstSkip = static_cast<std::size_t>(
+      std::find_if(body.begin(), body.end(), [](const auto& one) { return skipOf(one) != nullptr; }) -
+      body.begin());
   for (std::size_t i = 0; i < body.size(); ++i) {
     if (!modes[i] || !moves(body[i]) || modeOf(i) != DistanceMode::Absolute) continue;
     absolute.merge(coordinates(body[i]));
-    absoluteSkip = absoluteSkip || skipOf(body[i]) != nullptr;
+    constexpr std::size_t kMost = 200; // more say nothing new
+    if (const ir::NcBlock* skip = skipOf(body[i]); skip != nullptr && absoluteSkips.size() < kMost)
+      absoluteSkips.push_back(skip);
   }
   const ir::ProgramStatement* before = nullptr;
   for (std::size_t i = 0; i < body.size(); ++i) {
@@ -138,7 +197,11 @@ void check(const NcProgram& nc, Report& report) {
     const auto words = coordinates(body[i]);
     const bool same =
         std::any_of(words.begin(), words.end(), [&](const auto& w) { return absolute.contains(w); });
-    if (!same && !takesOffset(body[i]) && !(absoluteSkip && skipOf(body[i]) != nullptr)) continue;
+    const auto isOddSkip = [&] {
+      return skipOf(body[i]) != nullptr && !absoluteSkips.empty() &&
+             !(i == firstSkip && beginsSearch(body, i)) && !isDistanceElsewhere(body[i], absoluteSkips);
+    };
+    if (!same && !takesOffset(body[i]) && !isOddSkip()) continue;
     report.at(
         body[i].origin.range(),
         "G91 is still in force here, so the words are distances; elsewhere the program writes such words "
