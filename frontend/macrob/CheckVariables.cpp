@@ -291,6 +291,21 @@ public:
       if (std::holds_alternative<nc::Operation>(part.expression->node) && isShort(part.expression->range))
         operations_.insert(printWithoutBrackets(*part.expression));
     }
+    // Variables that hold the number of another one: #16 of #[#16], #[#16+1].
+    std::set<std::uint32_t> pointers;
+    const auto addPointers = [&](const Expression& subscript) {
+      walk(subscript, [&](const Expression& part, bool) {
+        if (const auto number = variableNumber(part)) pointers.insert(*number);
+      });
+    };
+    for (const CheckedProgram::Part& part : input.parts)
+      if (const auto* variable = std::get_if<nc::VariableRef>(&part.expression->node))
+        addPointers(*variable->number);
+    eachAssignment(input, [&](const nc::Assignment& one) { addPointers(*one.variable); });
+    eachAssignment(input, [&](const nc::Assignment& one) {
+      if (const auto written = writtenBy(one); written && pointers.contains(written->number))
+        addTerms(*one.value);
+    });
     eachWord(input, [&](const nc::Word& word) {
       if (const auto number = variableNumber(*word.value)) words_.emplace(word.address, *number);
     });
@@ -307,7 +322,7 @@ public:
   void operand(const nc::Operation& operation, bool onLeft, Report& report) const {
     const Expression& side = onLeft ? *operation.left : *operation.right;
     const auto* number = std::get_if<nc::Number>(&side.node);
-    if (number == nullptr || number->point || side.brackets > 0) return;
+    if (number == nullptr || number->point || side.brackets > 0 || numbers_.contains(&side)) return;
     if (!(number->value < 1e6) || !used_.contains(static_cast<std::uint32_t>(number->value))) return;
     if (!isShort({side.range.file, operation.left->range.begin, operation.right->range.end})) return;
     // A number of units, `5*#129`: the other side is a factor that holds for the whole pack.
@@ -342,7 +357,19 @@ private:
               digits, text);
   }
 
+  // Terms of a number of a variable that is computed first: `#16=5221+[#4-54]*20`.
+  void addTerms(const Expression& sum) {
+    const auto* operation = std::get_if<nc::Operation>(&sum.node);
+    if (operation == nullptr) {
+      numbers_.insert(&sum);
+    } else if (operation->op == "+" || operation->op == "-") {
+      addTerms(*operation->left);
+      addTerms(*operation->right);
+    }
+  }
+
   std::set<std::uint32_t> used_;
+  std::set<const Expression*> numbers_;
   std::set<std::string> operations_;
   std::set<std::pair<char, std::uint32_t>> words_;
 };

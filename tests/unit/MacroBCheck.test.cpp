@@ -111,6 +111,11 @@ TEST_CASE("macrob check: a `#` at the wrong place") {
   CHECK(program("#1=5.+#[2000+#7]") == "");
   CHECK(program("#1=[#2001+#7]") == "");
   CHECK(program("#110=5.\n#1=#110*SIN[#2]\n#3=110*SIN[#2]") == "W 4:4 hash-missing");
+  // The number of a variable that is read by it.
+  CHECK(program("#14=#5221+#4*20\n#16=5221+#4*20\n#1=#[#16]") == "");
+  CHECK(program("#14=#5221+#4*20\n#16=[5221+#4*20]-1\n#[#16+1]=#[#16]") == "");
+  CHECK(program("#14=#5221+#4*20\n#16=5221+#4*20\n#[#15]=#16") == "W 3:5 hash-missing");
+  CHECK(program("#110=5.\n#1=#110*SIN[#2]\n#16=5221+110*SIN[#2]\n#1=#[#16]") == "W 4:10 hash-missing");
   CHECK(program("#110=5.\n#1=#2*110") == ""); // not repeated with the variable
   CHECK(program("G1 X5. F#9\nG1 X6. F9") == "W 3:8 hash-missing");
   CHECK(program("G1 X5. F#9\nG1 X6. F90") == "");
