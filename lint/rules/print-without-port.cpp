@@ -1,6 +1,7 @@
 #include "ir/Dataflow.h"
 #include "lint/Skips.h"
 
+#include <algorithm>
 #include <cmath>
 #include <deque>
 #include <map>
@@ -26,6 +27,10 @@ constexpr std::string_view kNobody =
     "neither this program nor one that calls it, as far as they are given, opens the port before this block "
     "prints; the control prints nothing or stops with an alarm; write POPEN before, and PCLOS after the last "
     "one, or lint it together with the program that does";
+
+constexpr std::string_view kLeftOpen =
+    "nothing closes the port before the program ends; the end resets the control, which may cut off what is "
+    "still to be printed; write PCLOS after the last block that prints";
 
 bool meet(PortState& into, PortState other) {
   if (into == other || into == PortState::Unknown) return false;
@@ -147,18 +152,39 @@ private:
         else
           tell(body[i], kNobody, entry, Severity::Note);
       }
+      if (!printed && state == PortState::Open && ir::endsProgram(body[i])) leftOpen(entry, i);
       if (printed || port == nullptr) continue;
       if (port->open && state == PortState::Open) tell(body[i], kOpenAlready, entry);
       if (!port->open && state == PortState::Closed) tell(body[i], kNotOpen, entry);
     }
   }
 
+  // The program ends here with the port open.
+  void leftOpen(const Entry& entry, std::size_t end) {
+    const auto& body = entry.program->body;
+    for (std::size_t i = end; i-- > 0;) {
+      const auto* port = std::get_if<ir::Port>(&body[i].node);
+      if (port == nullptr && (ownOf(body[i]) == nullptr || !opens(*ownOf(body[i])))) continue;
+      if (port == nullptr || port->open) tell(body[i], kLeftOpen, entry, Severity::Warning, &body[end]);
+      return;
+    }
+    tell(body[end], kLeftOpen, entry); // the caller has opened it
+  }
+
+  static bool opens(const ir::Program& program) {
+    return std::any_of(program.body.begin(), program.body.end(), [](const ir::ProgramStatement& statement) {
+      const auto* port = std::get_if<ir::Port>(&statement.node);
+      return port != nullptr && port->open;
+    });
+  }
+
   void tell(const ir::ProgramStatement& statement, std::string_view text, const Entry& entry,
-            Severity severity = Severity::Warning) {
+            Severity severity = Severity::Warning, const ir::ProgramStatement* end = nullptr) {
     const SourceRange range = statement.origin.range();
     if (!told_.insert({range.file, range.begin}).second) return;
     Diagnostic& one = report_.at(range, "{}", text);
     one.severity = severity;
+    if (end != nullptr) one.note(end->origin.range(), "the program ends here with the port open");
     if (entry.call.hasPlace())
       one.note(entry.call, entry.state == PortState::Open ? "called here, with the port open"
                                                           : "called here, with the port closed");
