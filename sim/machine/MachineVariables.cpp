@@ -189,6 +189,12 @@ std::optional<double> Machine::readSystem(std::uint32_t number, const Place& pla
   case Kind::Now:
   case Kind::Skip: {
     const bool skip = place.kind == Kind::Skip;
+    if (skip && lastSkip_ == Skip::None) {
+      inconclusive(fmt::format("#{} is read before any skip move of this run: it holds where an earlier run "
+                               "was stopped by the signal; move by G31 first",
+                               number));
+      return std::nullopt;
+    }
     if (!skip && !position(work_, true)) return std::nullopt;
     std::optional<double> out = skip ? turnedVariable(number, place.axis, skipped_, skippedTurned_)
                                      : turnedVariable(number, place.axis, work_, rotation_.turnedBack(work_));

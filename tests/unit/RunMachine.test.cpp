@@ -150,3 +150,8 @@ TEST_CASE("run: a probing move with a signal") {
   CHECK(run.at(2) == "5");
   CHECK(run.run->earlyReads().empty());
 }
+
+TEST_CASE("run: where the signal has stopped no skip move yet is not known") {
+  CHECK(value("G1X10.F50.\n#2=#5061\n").starts_with("inconclusive: #5061 is read before any skip move"));
+  CHECK(value("#1=5063\nIF[#[#1]GT0]GOTO1\nN1#2=1\n").starts_with("inconclusive: #5063 is read before"));
+}
