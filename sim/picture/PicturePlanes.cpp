@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace dotek::sim {
@@ -10,11 +11,26 @@ namespace {
 // A face whose normal has less of an axis is cut from the side by a plane across that axis.
 constexpr double kAcross = 0.3;
 
-// The deepest place of the material in the region, of a coarse grid.
+// What the region holds of the box around the part; the region itself where it holds none.
+Region partIn(const Part& part, const Region& region) {
+  const Region reach = reachOf(part);
+  Region out = region;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double least = std::max(coordinate(reach.least, axis), coordinate(region.least, axis));
+    const double most = std::min(coordinate(reach.most, axis), coordinate(region.most, axis));
+    if (!(least < most)) return region;
+    setCoordinate(out.least, axis, least);
+    setCoordinate(out.most, axis, most);
+  }
+  return out;
+}
+
+// The deepest place of the material in the region, of a coarse grid; of material that is thinner than that,
+// one below the surface nearest to it.
 std::optional<Point3> insideOf(const Part& part, const Region& region) {
   constexpr int kSteps = 12;
   std::optional<Point3> best;
-  double deepest = 0;
+  double deepest = std::numeric_limits<double>::infinity();
   const Point3 size = region.most - region.least;
   for (int i = 0; i < kSteps; ++i) {
     for (int j = 0; j < kSteps; ++j) {
@@ -28,7 +44,12 @@ std::optional<Point3> insideOf(const Part& part, const Region& region) {
       }
     }
   }
-  return best;
+  if (!best || deepest < 0) return best;
+  const Part::Nearest near = part.nearest(*best);
+  for (double depth = 0.5; depth > 1e-3; depth /= 2)
+    if (const Point3 p = near.point - near.normal * depth; part.distance(p) < 0 && region.contains(p))
+      return p;
+  return std::nullopt;
 }
 
 // Whether the plane across `axis` cuts material in the region, seen on a coarse grid.
@@ -122,6 +143,7 @@ SectionPlanes sectionPlanesOf(const Picture& picture, const Region& region) {
   if (!picture.part) return out;
 
   const Part& part = *picture.part;
+  const Region seen = partIn(part, region); // a thin part is a small share of a picture that is wide
   const Point3 size = region.most - region.least;
   const double depth = std::max(0.5, 0.01 * std::max({size.x, size.y, size.z})); // after a face
   std::optional<Point3> inside;
@@ -136,7 +158,7 @@ SectionPlanes sectionPlanesOf(const Picture& picture, const Region& region) {
     const bool isFace = touch && std::abs(coordinate(touch->normal, axis)) >= kAcross;
     const bool cuts = part.distance(failed->at) < 0 ? true
                       : touch                       ? !isFace
-                                                    : cutsMaterial(part, region, axis, here);
+                                                    : cutsMaterial(part, seen, axis, here);
     if (cuts) {
       const bool aside = touch && part.distance(failed->at) >= 0;
       out.at[axis] = aside ? coordinate(touch->point, axis) : here;
@@ -201,8 +223,13 @@ SectionPlanes sectionPlanesOf(const Picture& picture, const Region& region) {
       most = std::max(most.value_or(end), end);
     }
     if (least) out.at[axis] = (*least + *most) / 2;
-    if (cutsMaterial(part, region, axis, out.at[axis])) continue;
-    if (!inside) inside = insideOf(part, region);
+    if (cutsMaterial(part, seen, axis, out.at[axis])) continue;
+    const double half = (coordinate(seen.least, axis) + coordinate(seen.most, axis)) / 2;
+    if (cutsMaterial(part, seen, axis, half)) {
+      out.at[axis] = half;
+      continue;
+    }
+    if (!inside) inside = insideOf(part, seen);
     if (inside) out.at[axis] = coordinate(*inside, axis);
   }
   return out;

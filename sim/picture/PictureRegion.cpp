@@ -176,15 +176,20 @@ Region regionOf(const Picture& picture) {
     if (apart && longest(both) < kDrawn / 10) {
       // What went wrong far from the part is seen beside it.
     } else if (longest(both) > std::max(kWholePart, kWholeShare * longest(focus))) {
-      // A side that ends near by is shown whole; of one that does not, a piece is enough.
+      // A side that ends near by is shown whole; of one that does not, a piece is enough. It holds the part
+      // also where that lies deeper than such a piece.
       const Region piece = grown(focus, std::max(15.0, 0.3 * longest(focus)));
+      const double depth = std::max(10.0, 0.1 * longest(focus));
+      const Region whole = seen;
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        if (coordinate(seen.least, axis) < coordinate(near.least, axis))
-          setCoordinate(seen.least, axis, coordinate(piece.least, axis));
-        if (coordinate(seen.most, axis) > coordinate(near.most, axis))
-          setCoordinate(seen.most, axis, coordinate(piece.most, axis));
+        const double least = coordinate(whole.least, axis), most = coordinate(whole.most, axis);
+        if (least < coordinate(near.least, axis))
+          setCoordinate(seen.least, axis,
+                        std::max(least, std::min(coordinate(piece.least, axis), most - depth)));
+        if (most > coordinate(near.most, axis))
+          setCoordinate(seen.most, axis,
+                        std::min(most, std::max(coordinate(piece.most, axis), least + depth)));
       }
-      seen = common(seen, near);
     }
     if (!isEmpty(seen)) {
       bounds.add(seen.least);

@@ -332,6 +332,40 @@ TEST_CASE("picture region: a part is whole, however small what was measured; a v
     CHECK(shown.find("the part goes on beyond the picture at X-, X+, Y-; it is") != std::string::npos);
 }
 
+TEST_CASE("picture: a part far below, or beside, the path is in it, with its bores") {
+  Picture picture;
+  PartBuilder plate;
+  plate.box({-350, -250, -20}, {350, 250, 0});
+  for (int i = 0; i < 40; ++i)
+    plate.cylinder({-300.0 + 60 * (i % 10), -200.0 + 60 * (i / 10), -15},
+                   {-300.0 + 60 * (i % 10), -200.0 + 60 * (i / 10), 1}, 4, Action::Remove);
+  picture.part = *finish(plate);
+  const auto path = [&](double x, double y, double z) {
+    picture.moves = {{PathKind::Feed, {x, y, z + 117}, {x, y, z}, true, 0},
+                     {PathKind::Feed, {x, y, z}, {x + 30, y, z}, true, 0}};
+  };
+  // From far above to beside it: whatever lies between the path and the part, no picture is without the part.
+  for (const double above : {2.0, 20.0, 35.0, 45.0, 60.0, 83.0, 87.0, 95.0, 150.0, 400.0}) {
+    for (const double aside : {0.0, 300.0, 420.0, 600.0, 1500.0}) {
+      CAPTURE(above);
+      CAPTURE(aside);
+      path(aside + 8, 8, above);
+      const Region region = regionOf(picture);
+      const Region reach = reachOf(*picture.part);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        CHECK(coordinate(region.least, axis) < coordinate(reach.most, axis));
+        CHECK(coordinate(region.most, axis) > coordinate(reach.least, axis));
+      }
+      const SectionPlanes planes = sectionPlanesOf(picture, region);
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        CHECK_FALSE(sectionOf(*picture.part, axis, planes.at[axis], region).areas.empty());
+    }
+  }
+  // Half way through the plate, where the bores are.
+  path(8, 8, 83);
+  CHECK(sectionPlanesOf(picture, regionOf(picture)).at[2] == doctest::Approx(-10).epsilon(0.02));
+}
+
 TEST_CASE("picture: the zero of the work coordinates is where the probe's tip is at their zero") {
   Picture picture = borePicture();
   CHECK_FALSE(workZeroOf(picture).has_value());
