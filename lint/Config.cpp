@@ -92,8 +92,8 @@ std::shared_ptr<Configs::File> Configs::load(const std::string& path, const std:
         section.patterns.push_back({item.text(), item.range()});
     for (const auto& [pattern, range, taken] : section.patterns) {
       if (pattern.empty()) continue; // of no text, reported; or it takes nothing
-      if (pattern.find_first_not_of("./") == std::string::npos || pattern.find("..") != std::string::npos ||
-          pattern.find('\\') != std::string::npos)
+      if (pattern.find_first_not_of("./") == std::string::npos || pattern.starts_with('/') ||
+          pattern.find("..") != std::string::npos || pattern.find('\\') != std::string::npos)
         document->fail(patterns.range(), "`" + pattern +
                                              "` takes no file; a pattern names what is below the folder of "
                                              "dotek.toml, with `/` between folders");
@@ -156,6 +156,25 @@ const Config* Configs::of(const std::string& path) {
   return &files_.emplace(path, std::move(config)).first->second;
 }
 
+namespace {
+
+// The folders or the file that a pattern names before its first `*` or `?`; "": a name at any depth.
+fs::path fixedPartOf(std::string_view pattern) {
+  fs::path out;
+  if (pattern.find('/') == std::string_view::npos) return out;
+  for (const fs::path& part : fs::path(pattern)) {
+    if (part.string().find_first_of("*?") != std::string::npos) break;
+    if (!part.empty() && part != ".") out /= part;
+  }
+  return out;
+}
+
+bool isWithin(const fs::path& inner, const fs::path& folder) {
+  return std::mismatch(folder.begin(), folder.end(), inner.begin(), inner.end()).first == folder.end();
+}
+
+} // namespace
+
 void Configs::reportUnused(const std::vector<std::string>& paths) {
   std::vector<fs::path> walked;
   for (const std::string& path : paths) {
@@ -168,14 +187,22 @@ void Configs::reportUnused(const std::vector<std::string>& paths) {
   for (const auto& [folder, file] : folders_) {
     if (file->settings.folder.empty() || !told.insert(file.get()).second) continue;
     const fs::path own(file->settings.folder);
-    const bool whole = std::any_of(walked.begin(), walked.end(), [&](const fs::path& one) {
-      return std::mismatch(one.begin(), one.end(), own.begin(), own.end()).first == one.end();
-    });
-    if (!whole) continue;
-    whole_.insert(own.lexically_normal().string());
+    const auto isWalked = [&](const fs::path& inner) {
+      return std::any_of(walked.begin(), walked.end(),
+                         [&](const fs::path& one) { return isWithin(inner, one); });
+    };
+    const bool whole = isWalked(own);
+    if (whole) whole_.insert(own.lexically_normal().string());
+    // All that the pattern could take was looked at, or there is no such folder.
+    const auto isKnown = [&](const Pattern& pattern) {
+      const fs::path fixed = fixedPartOf(pattern.text);
+      if (whole || fixed.empty() || walked.empty()) return whole;
+      std::error_code error;
+      return isWalked(own / fixed) || !fs::exists(own / fixed, error);
+    };
     for (const Section& section : file->sections)
       for (const Pattern& pattern : section.patterns)
-        if (!pattern.taken && !pattern.text.empty())
+        if (!pattern.taken && !pattern.text.empty() && isKnown(pattern))
           session_.diagnostics().report<diag::PathUnused>(pattern.range, pattern.text);
   }
 }

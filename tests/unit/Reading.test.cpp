@@ -180,9 +180,18 @@ TEST_CASE(
   CHECK(holds(run.out, "dotek.toml:6:8: warning: `old` takes none"));
   CHECK_FALSE(holds(run.out, "`mill/**`"));
   CHECK(holds(dotekIn(folder, {"lint", "."}).out, "path-unused"));
-  // Of a part of the folder nothing is known.
+  // Of a part of the folder: what is known of it, and that there is no folder of the name.
+  const CommandResult part = dotekIn(folder, {"lint", "shop/mill"});
+  CHECK(holds(part.out, "`lahte/**` takes none"));
+  CHECK_FALSE(holds(part.out, "`old`"));
+  folder.write("shop/lahte/sub/a.md", "Text.\n");
   CHECK(dotekIn(folder, {"lint", "shop/mill"}).status == 0);
   CHECK(dotekIn(folder, {"lint", "shop/mill/good.nc"}).status == 0);
+  folder.write("shop/dotek.toml", "schema = 1\n[[lint.path]]\npath = \"lathe/old*/**\"\nexclude = true\n");
+  CHECK(holds(dotekIn(folder, {"lint", "shop/lathe"}).out, "`lathe/old*/**` takes none"));
+  CHECK(dotekIn(folder, {"lint", "shop/mill"}).status == 0);
+  folder.write("shop/dotek.toml", "schema = 1\n[[lint.path]]\npath = \"/shop/mill/**\"\nexclude = true\n");
+  CHECK(holds(dotekIn(folder, {"lint", "shop/mill"}).out, "`/shop/mill/**` takes no file"));
   // A key that no section has: all that are known.
   folder.write("shop/dotek.toml", "schema = 1\n[[lint.path]]\npath = \"mill/**\"\nlevel = 1\n");
   CHECK(holds(dotekIn(folder, {"lint", "shop"}).out,
