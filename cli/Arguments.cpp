@@ -5,6 +5,7 @@
 #include "cli/Documents.h"
 #include "cli/Help.h"
 #include "cli/Options.h"
+#include "lint/Catalog.h"
 #include "project/Assumptions.h"
 #include "support/FileIdentity.h"
 #include "support/NearestName.h"
@@ -137,8 +138,14 @@ int printHelp(const CLI::App& app, const std::vector<std::string>& topics, std::
     out << overviewOf(app) << "\n" << helpTopics();
     return kDone;
   }
-  const std::string page = topics.front() == kCommandsTopic ? helpOfAll(app) : helpOn(topics.front());
+  std::string page = topics.front() == kCommandsTopic ? helpOfAll(app) : helpOn(topics.front());
+  for (const CLI::App* command : app.get_subcommands(nullptr)) // of some no page says more
+    if (page.empty() && command->get_name() == topics.front()) page = command->help(app.get_name());
   if (page.empty()) {
+    const std::string code = topics.front().substr(topics.front().rfind('/') + 1);
+    if (const auto codes = lint::codeTable(); std::any_of(
+            codes.begin(), codes.end(), [&](const lint::CodeInfo& info) { return info.code == code; }))
+      throw UsageError("no page `" + topics.front() + "`; `dotek explain " + code + "` prints what it means");
     const std::string near = nearestName(topics.front(), helpTopicNames());
     throw UsageError("no page `" + topics.front() + "`" +
                      (near.empty() ? "" : "; did you mean `" + near + "`?") + "; `dotek help` lists them");

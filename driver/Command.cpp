@@ -70,7 +70,10 @@ void joinAlike(Diagnostics& diagnostics, const SourceMap& sources) {
     kept.push_back(std::move(one));
   }
   for (const auto& [at, more] : others)
-    kept[at].note(more.next, fmt::format("and {} more in this file: {}", more.count, more.text));
+    kept[at].note(more.next, fmt::format("and {} more in this file: {}{}", more.count, more.text,
+                                         std::string_view(kept[at].code) == diag::SmallLetter::code
+                                             ? "; `dotek fmt --write` writes all of them in capitals"
+                                             : ""));
   diagnostics.all() = std::move(kept);
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <tuple>
 
 namespace dotek::lint::rule {
@@ -27,14 +28,16 @@ std::string text(const Code& code) {
          (code.second % 10 != 0 ? fmt::format(".{}", code.second % 10) : "");
 }
 
-// M23 where a profile lists M32.
-bool isListedSwapped(const Code& code, const Project& project) {
+// M32 for M23 where a profile lists it.
+std::optional<Code> listedSwapped(const Code& code, const Project& project) {
   const std::uint32_t number = code.second / 10;
-  if (code.second % 10 != 0 || number < 10 || number > 99 || number % 10 == number / 10) return false;
+  if (code.second % 10 != 0 || number < 10 || number > 99 || number % 10 == number / 10) return std::nullopt;
   const Code swapped{code.first, (number % 10 * 10 + number / 10) * 10};
-  return std::any_of(project.controls.begin(), project.controls.end(), [&](const stdlib::Control& control) {
-    return number % 10 != 0 && lists(control, swapped);
-  });
+  const bool known =
+      std::any_of(project.controls.begin(), project.controls.end(), [&](const stdlib::Control& control) {
+        return number % 10 != 0 && lists(control, swapped);
+      });
+  return known ? std::optional(swapped) : std::nullopt;
 }
 
 // Of one file: what another one has, or suppresses, changes nothing.
@@ -57,7 +60,7 @@ void checkFile(const macrob::File& file, const Project& project, Report& report)
           continue;
         // M codes are the builder's: without a machine's profile nobody can list them, and only what looks
         // like another one is reported.
-        if (word.address == 'M' && project.control == nullptr && !isListedSwapped(code, project)) continue;
+        if (word.address == 'M' && project.control == nullptr && !listedSwapped(code, project)) continue;
         if (std::none_of(unlisted.begin(), unlisted.end(),
                          [&](const auto& one) { return one.first == code; }))
           unlisted.emplace_back(code, word.range);
@@ -75,8 +78,11 @@ void checkFile(const macrob::File& file, const Project& project, Report& report)
   }
   // Nobody has said which control it is: one note for all codes.
   std::string names;
-  for (const auto& [code, range] : unlisted)
+  for (const auto& [code, range] : unlisted) {
     names += (names.empty() ? "" : ", ") + text(code);
+    if (const auto other = code.first == 'M' ? listedSwapped(code, project) : std::nullopt)
+      names += fmt::format(" (one lists {}, which has these digits the other way round)", text(*other));
+  }
   Diagnostic& found =
       report.at(unlisted.front().second,
                 "no profile of Dotek lists {}; where the machine has no such code it stops with an "

@@ -156,6 +156,11 @@ TEST_CASE("manual: dotek help prints a page, the section of a command, or the li
     CHECK_MESSAGE(list.out.find("\n  " + std::string(page.name.substr(0, page.name.find(".md"))) + " ") !=
                       std::string::npos,
                   page.name);
+  // A command that has no page or section of its own; the code of a message.
+  for (const char* command : {"check", "lsp"})
+    CHECK(runDotek({"help", command}, root()).out == runDotek({command, "--help"}, root()).out);
+  for (const char* topic : {"rules/small-letter", "small-letter"})
+    CHECK(runDotek({"help", topic}, root()).err.find("`dotek explain small-letter`") != std::string::npos);
   const CommandResult misspelt = runDotek({"help", "cycels"}, root());
   CHECK(misspelt.status == 2);
   CHECK(misspelt.err.find("did you mean `cycles`?") != std::string::npos);

@@ -204,7 +204,7 @@ TEST_CASE("reading: what a whole file has for one cause is told once") {
   const CommandResult run = dotekIn(folder, {"lint", "--select", "small-letter", "small.nc"});
   CHECK(holds(run.out, "small.nc:2:1: warning: `g` is in small letters"));
   CHECK(holds(run.out, "and 5 more in this file: `p` (line 2), `x` (line 2), `g` (line 3), `x` (line 3), `y` "
-                       "(line 3)"));
+                       "(line 3); `dotek fmt --write` writes all of them in capitals"));
   CHECK(run.out.find("[small-letter]") == run.out.rfind("[small-letter]"));
   // The letter of the number is one of them.
   folder.write("header.nc", "o9113\ng0 x1.\nm99\n");
