@@ -37,8 +37,12 @@ enum class Before : std::uint8_t { Nothing, Moved, MayTouch };
 void check(const NcProgram& nc, Report& report) {
   const auto& body = nc.program.body;
   const bool macro = returns(nc.program) || !endsProgram(nc.program);
-  // A macro that touches somewhere may ask first for what was there before.
-  if (macro && std::any_of(body.begin(), body.end(), mayTouch)) return;
+  // With a G31 in the program contact-of-other-axis says it; a macro that calls another may have touched by
+  // it.
+  const auto knows = [&](const ir::ProgramStatement& one) {
+    return skipOf(one) != nullptr || (macro && mayTouch(one));
+  };
+  if (std::any_of(body.begin(), body.end(), knows)) return;
   const auto before = ir::factsBefore<Before>(
       body, nc.flow(), Before::Nothing,
       [&](std::size_t at, std::size_t, Before known) {
@@ -58,16 +62,17 @@ void check(const NcProgram& nc, Report& report) {
     for (const auto& [number, range] : nc.reads(i)) {
       if (!contactAxis(number)) continue;
       Diagnostic& one =
-          macro ? report.at(range,
-                            "#{} is read after a move, and this macro has no G31 and calls nothing: it holds "
-                            "where the last G31 of another program was stopped; write G31 for the move that "
-                            "touches",
-                            number)
-                : report.at(range,
-                            "#{} is read before this program makes a skip move or calls a macro: it holds "
-                            "where the last G31 of another program was stopped; write G31 for the move that "
-                            "touches",
-                            number);
+          macro
+              ? report.at(range,
+                          "#{} is read after a move, and this macro has no G31 and calls nothing: it holds "
+                          "where the last G31 of another program was stopped; write G31 for the move that "
+                          "touches",
+                          number)
+              : report.at(range,
+                          "#{} is read, and this program has no G31 and has called no macro before: it holds "
+                          "where the last G31 of another program was stopped; write G31 for the move that "
+                          "touches",
+                          number);
       if (macro) one.severity = Severity::Note;
       return;
     }
