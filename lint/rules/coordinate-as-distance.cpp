@@ -79,14 +79,20 @@ bool isAnnounced(const std::vector<ir::ProgramStatement>& body, std::size_t at) 
 // Of the first skip move: all that was done since a G91 before it are plain moves: a search that is meant to
 // count from where it begins. Nothing has gone back from a surface, after which a G90 could be forgotten.
 bool beginsSearch(const std::vector<ir::ProgramStatement>& body, std::size_t at) {
+  enum class Step : std::uint8_t { GoOn, Yes, No };
   while (at-- > 0) {
-    if (callOf(body[at]) != nullptr || std::holds_alternative<ir::Loop>(body[at].node) ||
-        std::holds_alternative<ir::LoopEnd>(body[at].node))
-      return false;
-    const auto* block = std::get_if<ir::NcBlock>(&body[at].node);
-    if (block == nullptr) continue;
-    if (axesOf(*block) != 0 && !isPlainMove(*block)) return false;
-    if (hasCode(*block, 'G', 91)) return true;
+    const Step step = ir::match(
+        body[at],
+        [](const ir::NcBlock& block) {
+          if (axesOf(block) != 0 && !isPlainMove(block)) return Step::No;
+          return hasCode(block, 'G', 91) ? Step::Yes : Step::GoOn;
+        },
+        [](const ir::OneOf<ir::Call, ir::Loop, ir::LoopEnd> auto&) { return Step::No; },
+        [](const ir::OneOf<ir::Label, ir::Comment, ir::Store, ir::Jump, ir::Branch, ir::JumpTo, ir::Exit,
+                           ir::Raise, ir::Notice, ir::Port, ir::Print, ir::NameVariables> auto&) {
+          return Step::GoOn;
+        });
+    if (step != Step::GoOn) return step == Step::Yes;
   }
   return false;
 }

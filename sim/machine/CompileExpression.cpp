@@ -1,7 +1,6 @@
 // Expressions and conditions as instructions.
 #include "sim/machine/Compiler.h"
 #include "sim/machine/Decimal8.h"
-#include "support/Ascii.h"
 
 #include <cmath>
 
@@ -99,27 +98,10 @@ std::uint32_t Compiler::unary(const ir::Unary& unary, std::uint32_t into) {
   return to;
 }
 
-// `ATAN[2.]/#5` as a program writes it: the left side begins with the name of the function, and not with a
-// bracket around it.
-bool Compiler::isOpenArcTangent(const ir::Binary& divide) const {
-  const auto* left = std::get_if<ir::Unary>(&divide.left->node);
-  if (left == nullptr || left->op != ir::UnaryOp::ArcTangent || !divide.left->range.hasPlace()) return false;
-  const std::string_view text = sources_.text(divide.left->range);
-  constexpr std::string_view kName = "ATAN";
-  if (text.size() <= kName.size() || upperCase(text.substr(0, kName.size())) != kName) return false;
-  const std::size_t next = text.find_first_not_of(" \t", kName.size());
-  return next != std::string_view::npos && text[next] == '['; // a cycle writes `atan(2)`
-}
-
 std::uint32_t Compiler::binary(const ir::Binary& binary, std::uint32_t into) {
   using ir::BinaryOp;
   if (binary.op == BinaryOp::ValueOr) {
     refuse("a default of a cycle, which no control has");
-    return 0;
-  }
-  if (binary.op == BinaryOp::Divide && isOpenArcTangent(binary)) {
-    refuse("`/` after ATAN[..] is without brackets: the control stops with an alarm or divides the angle; "
-           "`ATAN[y]/[x]` is the angle of a direction, `[ATAN[..]]/2` a part of an angle");
     return 0;
   }
   const std::uint32_t a = operand(binary.left);

@@ -64,7 +64,6 @@ protected:
   std::uint32_t read(const ir::MachineVariable& variable, std::uint32_t into);
   std::uint32_t unary(const ir::Unary& unary, std::uint32_t into);
   std::uint32_t binary(const ir::Binary& binary, std::uint32_t into);
-  bool isOpenArcTangent(const ir::Binary& divide) const;
   // Jumps where the condition holds, or where it does not; gives the instruction whose c is open. nullopt: it
   // never jumps.
   std::optional<std::uint32_t> jumpIf(const ir::ConditionPtr& condition, bool holds);
