@@ -16,7 +16,7 @@ namespace dotek {
   X(includeDepth, "include-depth", 16, "depth of #INCLUDE")                                                  \
   X(callDepth, "call-depth", 32, "depth of macro and routine calls when a program is run")                   \
   X(steps, "steps", 1000000, "statements that one run may execute")                                          \
-  X(simSteps, "sim-steps", 50000000,                                                                        \
+  X(simSteps, "sim-steps", 50000000,                                                                         \
     "jumps and loop passes of one run of an NC program; a block or a call counts 10")                        \
   X(paths, "paths", 1024, "paths that the checks of a cycle may take while a host input is unknown")         \
   X(outputBytes, "output-bytes", 64u << 20, "size of one result, in bytes")                                  \

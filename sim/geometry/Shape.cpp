@@ -40,7 +40,9 @@ double blockDistance(const Shape& s, const Vec& p, Vec& gradient) {
 }
 
 // Sizes and places are bounded: nothing overflows, and std::hypot takes several times as long.
-double lengthOf(double x, double y) { return std::sqrt(x * x + y * y); }
+double lengthOf(double x, double y) {
+  return std::sqrt(x * x + y * y);
+}
 
 double coneDistance(const Shape& s, const Vec& p, Vec& gradient) {
   const double rho = lengthOf(p.x(), p.y()), z = p.z();
