@@ -64,9 +64,9 @@ std::vector<std::string> Workspace::beside(const Document& document, project::In
   return out;
 }
 
-std::vector<std::string> Workspace::cycleFolders(const Document& document) {
+std::vector<std::string> Workspace::cycleFolders(const std::string& path) {
   std::vector<std::string> out;
-  const fs::path folder = fs::path(document.path).parent_path();
+  const fs::path folder = fs::path(path).parent_path();
   for (const fs::path& where : {folder, folder.parent_path()}) {
     std::error_code error;
     for (const auto& entry : fs::directory_iterator(where, error))
@@ -77,11 +77,25 @@ std::vector<std::string> Workspace::cycleFolders(const Document& document) {
   return out;
 }
 
-std::string Workspace::postOf(const Document& document) {
-  const std::optional<std::string> prog = project::flagDefaultsOf({unitOf(document.path)}).prog;
+std::string Workspace::postOf(const std::string& path) {
+  const std::optional<std::string> prog = project::flagDefaultsOf({unitOf(path)}).prog;
   if (!prog) return "";
   std::error_code error;
   return fs::absolute(*prog, error).lexically_normal().generic_string();
+}
+
+std::vector<std::string> Workspace::inputsOf(const std::string& unit) {
+  std::vector<std::string> out{unit};
+  const std::string post = postOf(unit);
+  std::error_code error;
+  if (post.empty() || !fs::is_regular_file(post, error)) return out;
+  if (fs::is_directory(unit, error)) {
+    out.push_back(post);
+  } else if (unit == post) {
+    for (std::string& folder : cycleFolders(unit))
+      if (postOf(folder) == post) out.push_back(std::move(folder));
+  }
+  return out;
 }
 
 } // namespace dotek::lsp

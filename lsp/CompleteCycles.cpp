@@ -174,7 +174,7 @@ std::vector<Proposal> completeComPost(const Typing& typing) {
   const std::size_t quote = before.rfind('\'');
   if (quote != std::string::npos && quote > 0 && before[quote - 1] == '(') {
     const std::string_view word = std::string_view(before).substr(0, quote - 1);
-    const std::vector<std::string> folders = Workspace::cycleFolders(typing.document);
+    const std::vector<std::string> folders = Workspace::cycleFolders(typing.document.path);
     if (word.ends_with("CycleType?")) {
       for (const std::string& folder : folders)
         out.push_back({fs::path(folder).filename().string(), "cycle", "", kValue});

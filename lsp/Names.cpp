@@ -63,9 +63,9 @@ public:
       scope_ = folderName(unit);
       for (const std::string& path : workspace_.companions(document_))
         add(path);
-      if (const std::string post = Workspace::postOf(document_); !post.empty()) add(post);
+      if (const std::string post = Workspace::postOf(document_.path); !post.empty()) add(post);
     } else if (field && prog) {
-      for (const std::string& folder : Workspace::cycleFolders(document_))
+      for (const std::string& folder : Workspace::cycleFolders(document_.path))
         if (scope_.empty() || folderName(folder) == scope_) addFolder(folder);
     } else if (key_.starts_with("O ")) {
       for (const std::string& path : workspace_.beside(document_, project::InputKind::Nc))
@@ -267,7 +267,7 @@ Json definition(Workspace& workspace, const Json& params) {
   if (const auto file = place.index->files.find(one->key); file != place.index->files.end())
     path = file->second;
   if (one->key.starts_with("cycle "))
-    for (const std::string& folder : Workspace::cycleFolders(*place.document))
+    for (const std::string& folder : Workspace::cycleFolders(place.document->path))
       if (path.empty() && folderName(folder) == one->key.substr(6))
         for (const char* name : {"ToolPath.mac", "CycleData.mac", "CycleData.dlg", "DefineData.txt"})
           if (const auto file = project::cycleFile(folder, name); file && path.empty())

@@ -148,13 +148,21 @@ driver::CommonOptions Workspace::options(const std::vector<std::string>& inputs)
   return out;
 }
 
-void Workspace::keep(const driver::Outcome& outcome, const std::string& folder, const std::string& otherwise,
-                     std::map<std::string, std::vector<Found>>& byPath) const {
+void Workspace::keep(const driver::Outcome& outcome, const std::vector<std::string>& inputs,
+                     const std::string& otherwise, std::map<std::string, std::vector<Found>>& byPath) const {
+  const std::string& unit = inputs.front();
+  const bool folder = isFolder(unit);
+  const auto isElsewhere = [&](const std::string& path) {
+    return std::any_of(inputs.begin() + 1, inputs.end(), [&](const std::string& other) {
+      return path == other || path.starts_with(other + "/");
+    });
+  };
   for (const Diagnostic& one : outcome.diagnostics.all()) {
-    std::string path = one.range.hasPlace() ? outcome.sources.file(one.range.file).name() : "";
+    const std::string path = one.range.hasPlace() ? outcome.sources.file(one.range.file).name() : "";
+    if (isElsewhere(path)) continue;
     // What is found in no text, such as a file that is missing from the folder, is shown at the beginning of
     // one.
-    if (path.empty() || path == folder) {
+    if (path.empty() || (folder && path == unit)) {
       Found found;
       found.code = std::string(one.code);
       const Json start = {{"line", 0}, {"character", 0}};
@@ -185,7 +193,12 @@ Json Workspace::publish(const std::string& path, const std::vector<Found>& found
 
 std::vector<Json> Workspace::check() {
   std::vector<Json> out;
-  for (const std::string& unit : std::exchange(changed_, {})) {
+  std::set<std::string> toCheck = std::exchange(changed_, {});
+  // What is found in a cycle depends on the post that prints it.
+  for (const auto& [uri, document] : documents_)
+    if (const std::string unit = unitOf(document.path); unit != document.path)
+      if (toCheck.contains(postOf(unit))) toCheck.insert(unit);
+  for (const std::string& unit : toCheck) {
     std::set<std::string> open; // documents of the unit
     for (const auto& [uri, document] : documents_)
       if (document.path == unit || unitOf(document.path) == unit) open.insert(document.path);
@@ -194,9 +207,9 @@ std::vector<Json> Workspace::check() {
       byPath[path];
     if (!open.empty()) {
       driver::LintOptions lint;
-      lint.paths = {unit};
+      lint.paths = inputsOf(unit);
       lint.common = options(lint.paths);
-      keep(driver::lint(lint), isFolder(unit) ? unit : "", *open.begin(), byPath);
+      keep(driver::lint(lint), lint.paths, *open.begin(), byPath);
     }
     // What had findings and has none any more is published, too.
     for (const std::string& path : std::exchange(told_[unit], {}))

@@ -66,10 +66,10 @@ public:
   std::vector<std::string> companions(const Document& document) const;
   // Files of this kind in the folder of the document, itself left out.
   std::vector<std::string> beside(const Document& document, project::InputKind kind);
-  // Folders of GibbsCAM cycles beside the document and one folder up.
-  static std::vector<std::string> cycleFolders(const Document& document);
-  // The Prog that dotek.toml names for the document; "": none.
-  static std::string postOf(const Document& document);
+  // Folders of GibbsCAM cycles beside the file and one folder up.
+  static std::vector<std::string> cycleFolders(const std::string& path);
+  // The Prog that dotek.toml names for a file or a folder; "": none.
+  static std::string postOf(const std::string& path);
 
   // Options that a command takes for inputs of this workspace.
   driver::CommonOptions options(const std::vector<std::string>& inputs) const;
@@ -77,10 +77,14 @@ public:
   static std::string unitOf(const std::string& path);
 
 private:
+  // The unit with what is checked together with it: a cycle's folder with the Prog that dotek.toml names for
+  // it, such a Prog with the folders that it prints. The unit is the first.
+  static std::vector<std::string> inputsOf(const std::string& unit);
   Json publish(const std::string& path, const std::vector<Found>& found) const;
-  // `folder`: that was checked, "" for a file; `otherwise`: the path that takes what has no place in a text.
-  void keep(const driver::Outcome& outcome, const std::string& folder, const std::string& otherwise,
-            std::map<std::string, std::vector<Found>>& byPath) const;
+  // What was found in the first input, not in the others; `otherwise`: the path that takes what has no place
+  // in a text.
+  void keep(const driver::Outcome& outcome, const std::vector<std::string>& inputs,
+            const std::string& otherwise, std::map<std::string, std::vector<Found>>& byPath) const;
   std::string& writable(const std::string& path);
   void changed(const std::string& path);
 

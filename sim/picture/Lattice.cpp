@@ -61,8 +61,7 @@ Extent extentOf(const Part& part, const Shape& shape, std::size_t axis) {
 
 class LatticeMaker {
 public:
-  LatticeMaker(const Part& part, const Region& region, double step)
-      : part_(part), region_(region), step_(step) {
+  LatticeMaker(const Part& part, const Region& region, double step) : region_(region), step_(step) {
     for (const Shape& shape : part.solid().shapes) {
       std::array<Extent, 3> extents;
       bool isThere = true;
@@ -152,7 +151,6 @@ private:
     return false;
   }
 
-  const Part& part_;
   Region region_;
   double step_;
   std::vector<std::array<Extent, 3>> shapes_;

@@ -175,3 +175,33 @@ TEST_CASE("lsp: Mikroprog: codes, parameters, block numbers") {
   params["newName"] = "40";
   CHECK(client.ask("textDocument/rename", params).contains("error"));
 }
+
+TEST_CASE("lsp: a cycle and the post that dotek.toml names are checked together") {
+  const Shop shop("lsp-together");
+  Client client;
+  // The post asks for a field that the cycle has not, and leaves the work system out.
+  std::string prog = shop.prog;
+  prog.replace(prog.find("#('X')"), 6, "#('Z')");
+  const Json missing = client.open(shop.progPath, prog);
+  CHECK_MESSAGE(has(codes(missing), "field-not-defined"), missing.dump());
+  const std::string define = "X = 10\nG = 54\n";
+  const Json unused = client.open(shop.define, define);
+  CHECK_MESSAGE(has(codes(unused), "field-never-printed"), unused.dump());
+
+  // A field that the cycle gets, and the post that prints the system.
+  const std::string wider = "X = 10\nG = 54\nZ = 1\n";
+  client.note("textDocument/didChange", {{"textDocument", {{"uri", uriOf(shop.define)}, {"version", 2}}},
+                                         {"contentChanges", {{{"text", wider}}}}});
+  client.findings(shop.define);
+  client.note("textDocument/didChange", {{"textDocument", {{"uri", uriOf(shop.progPath)}, {"version", 2}}},
+                                         {"contentChanges", {{{"text", prog + "\n"}}}}});
+  const Json now = client.findings(shop.progPath);
+  CHECK_MESSAGE(!has(codes(now), "field-not-defined"), now.dump());
+  std::string printed = prog;
+  printed.insert(printed.find(" EOL"), " 'G'OpFieldData#('G')");
+  client.note("textDocument/didChange", {{"textDocument", {{"uri", uriOf(shop.progPath)}, {"version", 3}}},
+                                         {"contentChanges", {{{"text", printed}}}}});
+  // What is found in the cycle changes with the post.
+  for (const Json& one : client.findings(shop.define))
+    CHECK_MESSAGE((one["code"] != "field-never-printed" || one["range"]["start"]["line"] != 1), one.dump());
+}
