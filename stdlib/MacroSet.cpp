@@ -93,6 +93,13 @@ bool MacroSet::calls(std::uint32_t program) const {
                      [&](const MacroSignature& signature) { return signature.program == program; });
 }
 
+bool MacroSet::keepsCalibration(std::uint32_t variable) const {
+  constexpr std::uint32_t kFirstKept = 500; // of every control that has these macros
+  return std::any_of(scratch.begin(), scratch.end(), [&](const auto& range) {
+    return range.first >= kFirstKept && range.first <= variable && variable <= range.second;
+  });
+}
+
 bool MacroSet::hasUnstated() const {
   return std::any_of(signatures.begin(), signatures.end(), [](const MacroSignature& signature) {
     return !signature.unknown.empty() ||

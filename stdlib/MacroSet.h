@@ -243,6 +243,9 @@ struct MacroSet {
   bool needsSkipPosition = false; // the macros read the skip position of the control
 
   bool calls(std::uint32_t program) const;
+  // The macros read the calibration of the stylus there. What they work in lies below, also where the control
+  // keeps it at power off.
+  bool keepsCalibration(std::uint32_t variable) const;
   // Whether there are calls whose work no source states.
   bool hasUnstated() const;
   // Signatures of the program.

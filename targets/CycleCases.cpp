@@ -342,6 +342,10 @@ std::unique_ptr<CaseRunner::Values> CaseRunner::attemptAsIs(const verify::Case& 
   if (nominal_ != nullptr && !leadToNominal(values)) return nullptr;
   if (routine_ == nullptr) return values;
   if (!values->posted && !readPosted(*values)) return nullptr;
+  if (target_ == nullptr && values->path) {
+    refusal_ = whyAboveHome(*values);
+    if (!refusal_.empty()) return nullptr;
+  }
   drawVariables(*values);
   if (selects_ == false) {
     // Only some values make the post select something.

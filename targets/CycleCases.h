@@ -98,6 +98,7 @@ private:
   std::optional<std::vector<double>> nominalMisses(const verify::Case& drawn);
   std::string whyNotCorrected(const Values& values, const sim::Part& nominal, double off) const;
   std::string whyNotClear(const Values& values) const;
+  std::string whyAboveHome(const Values& values) const;
   bool makePart(Values& values) const;
   bool takeStatedPart(Values& values);
   void misplace(Values& values) const;

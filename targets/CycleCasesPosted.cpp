@@ -1,5 +1,6 @@
 // What the posted program of a case says of its values and macros.
 #include "targets/CycleCasesParts.h"
+#include "targets/Stage.h"
 
 #include <algorithm>
 #include <cmath>
@@ -31,10 +32,13 @@ verify::Case CaseRunner::coarser(verify::Case drawn, double unit) const {
 std::unique_ptr<CaseRunner::Values> CaseRunner::attempt(const verify::Case& proposal) {
   std::unique_ptr<Values> out = attemptAsIs(proposal);
   for (const double unit : {0.02, 0.2, 2.0}) {
-    if (!out || !out->losesDigits || !plan_.translation) return out;
+    // A target that writes a program for each case gets its values from the source.
+    if (!out || !out->losesDigits || (target_ != nullptr && !plan_.translation)) return out;
     out = attemptAsIs(coarser(proposal, unit));
   }
   if (!out || !out->losesDigits) return out;
+  // What the post drops of all values is a difference from the path.
+  if (target_ == nullptr) return attemptAsIs(proposal);
   refusal_ = "the post prints fewer digits than these values have";
   refusedAt_ = {};
   return nullptr;
@@ -102,6 +106,20 @@ void CaseRunner::startOnRetract(verify::Case& drawn) const {
     drawn.hosts["start_z"] = drawn.hosts["retract"];
   else if (!isGiven("retract"))
     drawn.hosts["retract"] = drawn.hosts["start_z"];
+}
+
+// A program that goes home would come down to it from a place above, which the machine does not reach. Home
+// is where the axes are 0: the ball hangs below by the length of the probe.
+std::string CaseRunner::whyAboveHome(const Values& values) const {
+  const std::vector<sim::Point3>& points = values.path->points;
+  const sim::Probe probe = probeFor(plan_, values.drawn);
+  const double home = -probe.centreLength() - probe.ballRadius();
+  const bool above =
+      std::any_of(points.begin() + 1, points.end(), [&](const sim::Point3& point) { return point.z > home; });
+  const ir::Program& program = values.posted->file.programs.front();
+  return above && blockWith(program, *inputs_->sourceControl, stdlib::Function::ReferenceReturn)
+             ? "the path lies above the reference position, to which the program returns"
+             : "";
 }
 
 // The plane that a ToolPath.mac reads and that of ZCP1 are one, the main clearance plane, on which the CAM

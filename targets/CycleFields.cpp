@@ -105,6 +105,9 @@ void add(verify::DrawField field, const LoweringInputs& inputs, VerifyPlan& plan
     field.firstSystem = firstSystemOf(field);
     if (macros != nullptr && inputs.sourceControl) findExtended(field, *macros, *inputs.sourceControl);
   }
+  if (field.kind == ir::Kind::ToolOffset)
+    for (const auto& control : {inputs.control, inputs.sourceControl})
+      if (control) field.most = std::min<double>(field.most, control->variables.toolCount);
   plan.fields.push_back(std::move(field));
 }
 

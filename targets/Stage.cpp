@@ -65,9 +65,12 @@ std::optional<SourceRange> blockWith(const ir::Program& program, const stdlib::C
     const auto* block = std::get_if<ir::NcBlock>(&statement.node);
     if (block == nullptr) continue;
     for (const ir::Word& word : block->words) {
-      const double* code = word.address == 'M' ? ir::constantValue(word.value) : nullptr;
+      if (word.address != 'G' && word.address != 'M') continue;
+      const double* code = ir::constantValue(word.value);
       const stdlib::CodeInfo* info =
-          code == nullptr ? nullptr : control.find('M', static_cast<std::uint32_t>(std::lround(*code * 10)));
+          code == nullptr || !(*code >= 0 && *code < 1e6)
+              ? nullptr
+              : control.find(word.address, static_cast<std::uint32_t>(std::lround(*code * 10)));
       if (info != nullptr && info->function == function) return statement.origin.range();
     }
   }

@@ -131,6 +131,12 @@ bool changesWork(stdlib::ArgumentRole role, double value) {
   }
 }
 
+// How far a travel of the target goes on beyond where the source expects the surface; nothing: it is none.
+std::optional<double> beyondSurface(const Measure& a, const Measure& b) {
+  if (a.travels || !b.travels || a.nominal.size() != 1 || b.nominal.size() != 1) return std::nullopt;
+  return (b.nominal[0].point - a.nominal[0].point).dot(a.nominal[0].direction);
+}
+
 // How a measure is made; of another vendor's macro how far it searches, where the source says so, how far it
 // keeps beside a feature, where both say so, and what it alone is told to do.
 void options(const ComparedPair& pair, const Measure& a, const Measure& b) {
@@ -153,12 +159,16 @@ void options(const ComparedPair& pair, const Measure& a, const Measure& b) {
     if (role == stdlib::ArgumentRole::Overtravel && one == a.options.end() && pair.rules.overtravel &&
         std::abs(other->second - *pair.rules.overtravel) <= kPrintedHalf)
       continue;
+    const bool searches = role == stdlib::ArgumentRole::Overtravel && other == b.options.end();
+    const std::optional<double> beyond = searches ? beyondSurface(a, b) : std::nullopt;
+    // The control rounds the word of the travel, and the place that it begins from.
+    if (beyond && std::abs(*beyond - one->second) <= pair.rules.tolerance + 2 * kPrintedHalf) continue;
     const std::string name(stdlib::roleName(role));
-    const ShownNumbers values =
-        shownNumbers(one == a.options.end() ? 0 : one->second, other == b.options.end() ? 0 : other->second);
+    const double there = other != b.options.end() ? other->second : beyond.value_or(0);
+    const ShownNumbers values = shownNumbers(one == a.options.end() ? 0 : one->second, there);
     pair.add(Aspect::Nominal,
              withLetters(one == a.options.end() ? sidesText("no " + name, name + " " + values.target)
-                         : other == b.options.end()
+                         : other == b.options.end() && !beyond
                              ? sidesText(name + " " + values.source, "none")
                              : fmt::format("{} {} against {}", name, values.source, values.target),
                          a, b, pair.rules.tolerance),

@@ -185,7 +185,10 @@ double Draws::value(std::size_t index, bool near, std::uint32_t attempt, Random&
   if (field.kind == Kind::WorkOffset)
     return field.firstSystem + static_cast<double>(random.whole(0, kLastSystem - kFirstSystem));
   if (!field.choices.empty()) return field.choices[random.below(field.choices.size())];
-  if (field.initial && random.chance(keeps(attempt))) return rounded(*field.initial, field.decimals);
+  // Under 0 no tool has its length.
+  const bool usable = field.kind != Kind::ToolOffset || field.initial.value_or(0) >= 1;
+  if (field.initial && random.chance(keeps(attempt)) && usable)
+    return rounded(std::min(*field.initial, field.most), field.decimals);
   if (field.usual && random.chance(0.8)) {
     constexpr double kBeside = 0.5;
     const double beside = random.chance(0.5) ? 0 : random.between(-kBeside, kBeside);
@@ -194,7 +197,7 @@ double Draws::value(std::size_t index, bool near, std::uint32_t attempt, Random&
   switch (field.kind) {
   case Kind::Flag: return static_cast<double>(random.whole(0, 1));
   case Kind::Count: return smallNumber(field, 0, random);
-  case Kind::ToolOffset: return smallNumber(field, 1, random);
+  case Kind::ToolOffset: return std::min(smallNumber(field, 1, random), field.most);
   case Kind::Text: return rounded(field.initial.value_or(0), field.decimals);
   case Kind::WorkOffset:
   case Kind::Angle:

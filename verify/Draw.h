@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -28,8 +29,9 @@ struct DrawField {
   double firstSystem = 54;        // of a work offset: the number that is G54
   std::vector<double> extended;   // of a work offset: numbers beside those that stand for G54.1 Pn
   bool extendedAlone = false;     // the six are not offered
-  std::optional<double> fixed;    // by --set or the job: always this
-  std::optional<double> usual;    // what it says of the surfaces of the path
+  double most = std::numeric_limits<double>::infinity(); // of a tool offset: the last that the controls have
+  std::optional<double> fixed;                           // by --set or the job: always this
+  std::optional<double> usual;                           // what it says of the surfaces of the path
 
   // Of a work offset the G code that the value is: 54 to 59; 0: none of them.
   std::uint32_t systemOf(double value) const {

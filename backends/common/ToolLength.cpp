@@ -70,14 +70,20 @@ bool isOfArguments(const ir::Cycle& cycle, const ir::ExpressionPtr& number) {
 }
 
 void refuseNoLength(const ir::Cycle& cycle, const std::map<ir::VariableId, double>& fixed,
-                    const stdlib::Control& control, Diagnostics& diagnostics) {
+                    const stdlib::Control& control, const stdlib::Control& target, Diagnostics& diagnostics) {
   ir::Environment environment(cycle.variables.size());
   for (const auto& [id, value] : fixed)
     environment[id] = ir::Scalar::of(value);
   for (const LengthOffset& offset : lengthOffsets(cycle, control)) {
-    if (ir::constantValue(offset.word->value) != nullptr) continue; // the post's own
     const ir::Scalar number = ir::evaluate(*offset.word->value, environment);
-    if (!number.known() || number.value > 0) continue;
+    if (!number.known()) continue;
+    const SourceRange range =
+        offset.word->range.hasPlace() ? offset.word->range : cycle.body[offset.at].origin.range();
+    if (target.variables.toolCount > 0 && number.value > target.variables.toolCount)
+      diagnostics.report<diag::NoSuchToolOffset>(range, numberText(number.value), target.title,
+                                                 target.variables.toolCount);
+    // A constant is the post's own.
+    if (number.value > 0 || ir::constantValue(offset.word->value) != nullptr) continue;
     std::string fields;
     ir::eachNode(offset.word->value, [&](const ir::Expression& node) {
       const auto* use = std::get_if<ir::VariableUse>(&node.node);
@@ -85,8 +91,6 @@ void refuseNoLength(const ir::Cycle& cycle, const std::map<ir::VariableId, doubl
       fields += (fields.empty() ? "`" : ", `") + cycle.variable(use->variable).name +
                 "` = " + numberText(environment[use->variable].value);
     });
-    const SourceRange range =
-        offset.word->range.hasPlace() ? offset.word->range : cycle.body[offset.at].origin.range();
     diagnostics.report<diag::NoToolLength>(range, fields, numberText(number.value));
   }
 }

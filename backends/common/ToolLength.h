@@ -22,8 +22,9 @@ std::vector<LengthOffset> lengthOffsets(const ir::Cycle& cycle, const stdlib::Co
 // Whether the values that the program is called with tell the number: arguments alone, which the body leaves
 // as they are.
 bool isOfArguments(const ir::Cycle& cycle, const ir::ExpressionPtr& number);
-// Reports a number that the values fixed make 0 or less. `cycle`: they are not in it yet.
+// Reports a number that the values fixed make 0 or less, or one that `target` does not have. `cycle`: they
+// are not in it yet; `control`: the source's.
 void refuseNoLength(const ir::Cycle& cycle, const std::map<ir::VariableId, double>& fixed,
-                    const stdlib::Control& control, Diagnostics& diagnostics);
+                    const stdlib::Control& control, const stdlib::Control& target, Diagnostics& diagnostics);
 
 } // namespace dotek::backends

@@ -261,6 +261,10 @@ void writeOpaque(State& state, const ir::OpaqueBlock& block, const ir::Origin& o
 void writeLengthAlarm(State& state, const ir::ExpressionPtr& offset, const ir::Origin& origin) {
   alarmIf(state, ir::compare(ir::Relation::LessEqual, offset, ir::constant(0)), "TOOL OFFSET NOT ABOVE 0",
           origin);
+  const int last = state.control.variables.toolCount;
+  if (last == 0 || last >= state.options.sourceControl.variables.toolCount) return;
+  alarmIf(state, ir::compare(ir::Relation::Greater, offset, ir::constant(last)),
+          fmt::format("TOOL OFFSET ABOVE {}", last), origin);
 }
 
 namespace {

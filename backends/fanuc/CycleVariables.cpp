@@ -2,6 +2,7 @@
 // profiles.
 #include "backends/fanuc/ProgramVariables.h"
 #include "backends/fanuc/State.h"
+#include "backends/fanuc/WrittenFirst.h"
 #include "ir/CycleNames.h"
 #include "ir/Rewrite.h"
 #include "ir/Walk.h"
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <map>
 
 namespace dotek::backends::fanuc {
 
@@ -41,6 +43,7 @@ public:
     for (auto* list : {&state_.cycle.checks, &state_.cycle.body})
       for (ir::CycleStatement& statement : *list) {
         range_ = statement.origin.range();
+        at_ = list == &state_.cycle.body ? &statement : nullptr;
         ir::rewrite(statement, [&](const ir::ExpressionPtr& node) { return used(node); });
         if (auto* store = std::get_if<ir::Store>(&statement.node)) stored(*store);
       }
@@ -71,6 +74,7 @@ private:
   std::optional<std::uint32_t> moved(std::uint32_t number, SourceRange range) {
     const VariableThere there = variableThere(number, state_.options.sourceControl, state_.control);
     if (!there.number) {
+      if (there.onlyKeptOtherwise && isWrittenFirst(number)) return number;
       state_.refuse<diag::VariableElsewhere>(range, number, there.why);
       return std::nullopt;
     }
@@ -80,15 +84,33 @@ private:
     return there.number;
   }
 
+  // By the branch, before the statement that reads it.
+  bool isWrittenFirst(std::uint32_t number) {
+    if (at_ == nullptr) return false;
+    const auto& body = state_.cycle.body;
+    auto [found, isNew] = unwritten_.try_emplace(number);
+    if (isNew)
+      found->second = reachedUnwritten(body, [&](const ir::CycleStatement& statement) {
+        const auto* store = std::get_if<ir::Store>(&statement.node);
+        return store != nullptr && wholeOf(store->number) == number;
+      });
+    return !found->second[static_cast<std::size_t>(at_ - body.data())];
+  }
+
   void computed(const ir::ExpressionPtr& number, SourceRange range) {
     const auto base = ir::firstNumber(number);
     // Over the offsets of work systems, where they lie as on the source's control.
     if (base && *base >= kFirstSystem && isSettable(state_.control, *base) && sameOffsets()) return;
     if (!base || *base <= state_.control.locals || !state_.control.isCommon(*base))
       state_.refuse<diag::MachineVariableRefused>(range, "[..]", state_.control.title);
-    else if (!same() && !holdsVariablesOf(state_.control, state_.options.sourceControl))
-      state_.refuse<diag::VariableNumberComputed>(range, state_.control.title,
-                                                  state_.options.sourceControl.title);
+    else if (!same() && !holdsVariablesOf(state_.control, state_.options.sourceControl)) {
+      if (!sharesVariablesFrom(*base, state_.control, state_.options.sourceControl))
+        state_.refuse<diag::VariableNumberComputed>(range, state_.control.title,
+                                                    state_.options.sourceControl.title);
+      else if (state_.reported.insert("variable number").second)
+        state_.diagnostics.report<diag::VariableNumberOpen>(range, state_.options.sourceControl.title,
+                                                            state_.control.title);
+    }
   }
 
   bool sameOffsets() const { return samePlaces(state_.control, state_.options.sourceControl); }
@@ -106,6 +128,8 @@ private:
 
   State& state_;
   SourceRange range_;
+  const ir::CycleStatement* at_ = nullptr; // of the body; nullptr: of the checks
+  std::map<std::uint32_t, std::vector<bool>> unwritten_;
 };
 
 // `G10 L2 P1 X.. Y.. Z..` writes an offset on both: P1 to P6 are the systems of the group that both tell.

@@ -62,7 +62,10 @@ std::map<ir::VariableId, double> exampleValues(const State& state) {
   for (const Argument& argument : state.arguments) {
     const ir::Variable& variable = state.cycle.variable(argument.variable);
     out[argument.variable] = typical(variable);
-    if (putsLength(argument.variable) && out[argument.variable] <= 0) out[argument.variable] = 1;
+    const int last = state.control.variables.toolCount;
+    if (putsLength(argument.variable) &&
+        (out[argument.variable] <= 0 || (last > 0 && out[argument.variable] > last)))
+      out[argument.variable] = 1;
     if (variable.defaultValue) continue;
     if (variable.optional)
       all[argument.variable] = ir::Scalar::null();

@@ -179,7 +179,7 @@ private:
     const auto variable = static_cast<std::uint32_t>(*value);
     for (const auto& [first, last] : state_.macros.scratch) {
       if (variable < first || variable > last) continue;
-      if (!isKept(variable)) {
+      if (!state_.macros.keepsCalibration(variable)) {
         // Where no macro is called, what it works in is like any other variable.
         if (calls())
           state_.diagnostics.report<diag::StoreScratch>(origin.range(), variable, state_.macros.title);
@@ -222,13 +222,6 @@ private:
              info->function == stdlib::Function::ModalCall ||
              info->function == stdlib::Function::SubprogramCall;
     });
-  }
-
-  bool isKept(std::uint32_t variable) const {
-    return std::any_of(state_.control.common.begin(), state_.control.common.end(),
-                       [&](const stdlib::VariableRange& range) {
-                         return range.kept && variable >= range.first && variable <= range.last;
-                       });
   }
 
   // A number that counts from `base` may reach what the macros work in, in the same bank of variables.

@@ -3,6 +3,7 @@
 #include "backends/fanuc/MacroNames.h"
 #include "backends/fanuc/ProgramText.h"
 #include "backends/fanuc/ProgramVariables.h"
+#include "backends/fanuc/WrittenFirst.h"
 #include "ir/Rewrite.h"
 #include "ir/Walk.h"
 #include "support/Decimal.h"
@@ -68,22 +69,19 @@ public:
   }
 
 private:
-  // A call of a vendor's macro just before, on every way, has left a result there: what the control keeps at
-  // power off makes no difference.
-  bool isFilled(std::uint32_t number) const {
-    for (const ir::ProgramStatement* at = statement_; at != program_.body.data();) {
-      --at;
-      bool filled = false, goesOn = true; // else others come here, too, or it is not known
-      ir::match(
-          *at, [&](const ir::Call& call) { filled = at->blockDelete == 0 && leaves(call, number); },
-          [](const ir::OneOf<ir::NcBlock, ir::Store, ir::Comment, ir::Notice, ir::Branch, ir::Print> auto&) {
-          },
-          [&](const ir::OneOf<ir::Label, ir::Jump, ir::JumpTo, ir::Loop, ir::LoopEnd, ir::Exit, ir::Raise,
-                              ir::Port, ir::NameVariables> auto&) { goesOn = false; });
-      if (filled) return true;
-      if (!goesOn) return false;
-    }
-    return false;
+  // The program, or a call of a vendor's macro, has written it on every way: what the control keeps at power
+  // off makes no difference.
+  bool isFilled(std::uint32_t number) {
+    auto [found, isNew] = unwritten_.try_emplace(number);
+    if (isNew)
+      found->second = reachedUnwritten(program_.body, [&](const ir::ProgramStatement& statement) {
+        if (statement.blockDelete != 0) return false;
+        if (const auto* store = std::get_if<ir::Store>(&statement.node))
+          return wholeOf(store->number) == number;
+        const auto* call = std::get_if<ir::Call>(&statement.node);
+        return call != nullptr && leaves(*call, number);
+      });
+    return !found->second[static_cast<std::size_t>(statement_ - program_.body.data())];
   }
 
   bool leaves(const ir::Call& call, std::uint32_t number) const {
@@ -108,7 +106,8 @@ private:
   std::uint32_t there(std::uint32_t number, SourceRange range, bool reads = false) {
     const VariableThere found = variableThere(number, context_.from(), context_.to());
     if (!found.number) {
-      if (found.onlyKeptOtherwise && reads && isFilled(number)) return number;
+      // What the program itself reads of it is asked where it reads.
+      if (found.onlyKeptOtherwise && (reads ? isFilled(number) : !found.lost)) return number;
       context_.diagnostics.report<diag::VariableElsewhere>(range, number, found.why);
     } else if (*found.number != number) {
       context_.diagnostics.report<diag::VariableMoved>(range, number, found.what, *found.number,
@@ -151,7 +150,9 @@ private:
     const bool same = any_.same();
     const bool known = system && (variableThere(*base, context_.from(), context_.to()).number ||
                                   variableThere(*base + 1, context_.from(), context_.to()).number);
-    const bool holds = system ? same && known : same || any_.holds();
+    const bool holds =
+        system ? same && known
+               : same || any_.holds() || (base && sharesVariablesFrom(*base, context_.to(), context_.from()));
     if (!holds)
       context_.diagnostics.report<diag::VariableNumberComputed>(range, context_.to().title,
                                                                 context_.from().title);
@@ -164,6 +165,7 @@ private:
   AnyVariable& any_;
   const ProgramContext& context_;
   ir::ProgramStatement* statement_ = nullptr;
+  std::map<std::uint32_t, std::vector<bool>> unwritten_;
   bool told_ = false;
 };
 

@@ -296,15 +296,11 @@ private:
   void stored(const ir::Store& store) {
     const auto number = wholeOf(store.number);
     if (!number) return computed(store.number, range_);
-    const auto& common = settings_.control.common;
-    const bool kept = std::any_of(common.begin(), common.end(), [&](const stdlib::VariableRange& range) {
-      return range.kept && *number >= range.first && *number <= range.last;
-    });
-    if (kept && uses(to(), *number)) {
+    if (to().keepsCalibration(*number)) {
       diagnostics_.report<diag::StoreCalibration>(range_, *number, to().title);
     } else if (uses(to(), *number) && !uses(from(), *number)) {
       if (told_.insert(*number).second) diagnostics_.report<diag::StoreScratch>(range_, *number, to().title);
-    } else if (uses(from(), *number) && (kept || from().probing.feedVariable == *number)) {
+    } else if (from().keepsCalibration(*number) || from().probing.feedVariable == *number) {
       if (told_.insert(*number).second)
         diagnostics_.report<diag::StoreForSource>(range_, *number, from().title, to().title);
     }

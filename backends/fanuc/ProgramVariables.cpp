@@ -174,7 +174,7 @@ std::optional<bool> lengthIn(const Control& control, const Meaning& meaning) {
 }
 
 VariableThere refused(std::string why, std::string what = "") {
-  return {std::nullopt, std::move(what), std::move(why), false};
+  return {std::nullopt, std::move(what), std::move(why)};
 }
 
 VariableThere plainVariable(std::uint32_t number, const Control& from, const Control& to) {
@@ -188,13 +188,14 @@ VariableThere plainVariable(std::uint32_t number, const Control& from, const Con
             ? fmt::format("keeps its value at power off on {}, and loses it on {}", from.title, to.title)
             : fmt::format("is empty after power on on {}, and keeps its value on {}", from.title, to.title));
     out.onlyKeptOtherwise = (number <= from.locals) == (number <= to.locals);
+    out.lost = *here;
     return out;
   }
   if (here && (number <= from.locals) != (number <= to.locals))
     return refused(fmt::format("is local on one of {} and {}", from.title, to.title));
   if (!here && there)
     return refused(fmt::format("is no variable of {}, but one of {}", from.title, to.title));
-  return {number, "", "", false};
+  return {number, "", ""};
 }
 
 } // namespace
@@ -204,6 +205,15 @@ std::string variableRanges(const Control& control) {
   for (const stdlib::VariableRange& range : control.common)
     out += fmt::format(", #{} to #{}", range.first, range.last);
   return out;
+}
+
+bool sharesVariablesFrom(std::uint32_t first, const Control& to, const Control& from) {
+  constexpr std::uint32_t kEnough = 50;
+  std::uint32_t shared = 0;
+  while (shared < kEnough && keptOf(from, first + shared) && first + shared > from.locals &&
+         keptOf(from, first + shared) == keptOf(to, first + shared))
+    ++shared;
+  return shared == kEnough || (shared > 0 && !keptOf(from, first + shared));
 }
 
 bool holdsVariablesOf(const Control& to, const Control& from) {
@@ -234,7 +244,7 @@ const StateRange* stateOf(const Control& control, std::uint32_t number) {
 } // namespace
 
 VariableThere variableThere(std::uint32_t number, const Control& from, const Control& to) {
-  if (number == 0 || (from.name == to.name && from.origin == to.origin)) return {number, "", "", false};
+  if (number == 0 || (from.name == to.name && from.origin == to.origin)) return {number, "", ""};
   if (number < kFirstSystem) return plainVariable(number, from, to);
   if (keptOf(from, number) || keptOf(to, number)) return plainVariable(number, from, to);
   const std::optional<Meaning> meaning = meaningOf(from, number);

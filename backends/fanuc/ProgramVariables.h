@@ -16,6 +16,7 @@ struct VariableThere {
   std::string what;                    // "X of the work offset of G56"; "" of locals and common variables
   std::string why;                     // of a refusal: "is no variable of Fanuc 0i-MD"
   bool onlyKeptOtherwise = false;      // of a refusal: both have it, and one loses it at power off
+  bool lost = false;                   // that one is the target
 };
 VariableThere variableThere(std::uint32_t number, const stdlib::Control& from, const stdlib::Control& to);
 
@@ -23,6 +24,9 @@ VariableThere variableThere(std::uint32_t number, const stdlib::Control& from, c
 bool sameVariables(const stdlib::Control& from, const stdlib::Control& to);
 // Every local and common variable of the source is one of the target, kept as long.
 bool holdsVariablesOf(const stdlib::Control& to, const stdlib::Control& from);
+
+// Both have the variable, and those that follow it on the source, at least 50 of them or all, kept as long.
+bool sharesVariablesFrom(std::uint32_t first, const stdlib::Control& to, const stdlib::Control& from);
 
 // "#1 to #33, #100 to #149"
 std::string variableRanges(const stdlib::Control& control);

@@ -63,7 +63,8 @@ public:
         session_.diagnostics().report<diag::CycleResultUnknown>({}, name, folder.name, "");
     const auto lists = dialogChoices(folder, lowered.cycle, session_.sources());
     confineToLists(lowered.cycle, lists);
-    backends::refuseNoLength(lowered.cycle, lowered.fixed, *inputs.sourceControl, session_.diagnostics());
+    backends::refuseNoLength(lowered.cycle, lowered.fixed, *inputs.sourceControl, *inputs.control,
+                             session_.diagnostics());
     ir::fold(lowered.cycle, lowered.fixed);
     fanuc::EmitOptions emit{*inputs.control, *macros, *inputs.sourceControl, 0, {}, {}, {}, {}};
     emit.plainMessages = options_.common.assume.contains("plain-messages");

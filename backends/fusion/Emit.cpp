@@ -40,12 +40,8 @@ void checkStores(State& state) {
     const auto within = [&](const auto& range) { return range.first <= *number && *number <= range.second; };
     const auto& scratch = state.options.macros.scratch;
     if (std::none_of(scratch.begin(), scratch.end(), within)) continue;
-    const auto& common = state.options.control.common;
-    const bool kept = std::any_of(common.begin(), common.end(), [&](const stdlib::VariableRange& range) {
-      return range.kept && range.first <= *number && *number <= range.last;
-    });
     const auto variable = static_cast<std::uint32_t>(*number);
-    if (kept)
+    if (state.options.macros.keepsCalibration(variable))
       state.refuse<diag::StoreCalibration>(one.origin.range(), variable, state.options.macros.title);
     else
       state.diagnostics.report<diag::StoreScratch>(one.origin.range(), variable, state.options.macros.title);

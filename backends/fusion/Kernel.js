@@ -490,11 +490,12 @@ function dotekRun(input) {
       return global[name].apply(null, list || []);
     }
   }
-  var taken, kept = [], defined = {}, offered = [], entries, entry;
+  var taken, kept = [], defined = {}, offered = [], scopes = {}, entries, entry;
   for (var name in input.entry === undefined ? {} : properties) {
     if (typeof properties[name] === "object" && properties[name] !== null &&
       properties[name].value !== undefined) {
       defined[name] = properties[name].value;
+      scopes[name] = properties[name].scope;
       entries = properties[name].values;
       for (entry = 0; entries && entry < entries.length; ++entry) {
         offered[offered.length] = name + "=" + entries[entry].id + "=" + entries[entry].title;
@@ -552,14 +553,14 @@ function dotekRun(input) {
   }
   return {text: dotekState.before.join("") + dotekState.text, errors: dotekState.errors,
     warnings: dotekState.warnings, afterError: dotekState.afterError, taken: taken, kept: kept,
-    defined: defined, offered: offered};
+    defined: defined, offered: offered, scopes: scopes};
 }
 
 // ---- what Dotek calls -----------------------------------------------------------------------------------
 
 // A function of the input that gives texts: ["flood"], or the NC text, "late" or "", then each error after an
 // "e", each warning after a "w", each output that was kept after a "k", each definition of a property as
-// "dNAME=VALUE", "t" where the entry function returned true. A post that replaces what the double works with is refused: what it does on
+// "dNAME=VALUE", its scope as "sNAME=SCOPE", "t" where the entry function returned true. A post that replaces what the double works with is refused: what it does on
 // the double says nothing of the kernel.
 (function () {
   var global = (function () {
@@ -615,6 +616,9 @@ function dotekRun(input) {
     }
     for (name in result.defined) {
       out[out.length] = "d" + name + "=" + result.defined[name];
+    }
+    for (name in result.scopes) {
+      out[out.length] = "s" + name + "=" + result.scopes[name];
     }
     for (i = 0; i < result.offered.length; ++i) {
       out[out.length] = "o" + result.offered[i];

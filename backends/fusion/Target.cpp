@@ -156,7 +156,9 @@ private:
     if (macros == nullptr) macros = &none;
     const auto lists = dialogChoices(folder, lowered.cycle, session_.sources());
     confineToLists(lowered.cycle, lists);
-    backends::refuseNoLength(lowered.cycle, lowered.fixed, *inputs.sourceControl, session_.diagnostics());
+    backends::refuseNoLength(lowered.cycle, lowered.fixed, *inputs.sourceControl,
+                             inputs.control ? *inputs.control : *inputs.sourceControl,
+                             session_.diagnostics());
     ir::fold(lowered.cycle, lowered.fixed);
     fusion::EmitOptions emit{*inputs.sourceControl,
                              *macros,

@@ -43,7 +43,9 @@ fusion::RunInput operationOf(const verify::Case& drawn, const std::string& prefi
 
 void OperationDemands::check(const TargetCase& now, const fusion::RunResult& result, TargetRun& out) {
   runElsewhere(now, out);
+  compareChoice(result, out);
   runWithoutSense(now, out);
+  runBeside(now, out);
   runTooLarge(now, out);
   runRejected(now, out);
   for (const verify::DrawField& field : from_.plan.fields) {
@@ -56,7 +58,29 @@ void OperationDemands::check(const TargetCase& now, const fusion::RunResult& res
   compareLists(dialogChoices(from_.folder, from_.session.sources()), result, prefix_, out);
 }
 
-// The operation of another cycle, a document in inches, an operation that the post surrounds with calls.
+// How an operation chooses the cycle: it does so alone, and the list offers it.
+void OperationDemands::compareChoice(const fusion::RunResult& result, TargetRun& out) const {
+  constexpr const char* kChoice = "dotekCycle";
+  const auto differs = [&](std::string text) {
+    if (out.differences.empty()) out.differs(verify::Aspect::Variable, std::move(text));
+  };
+  const auto offered = result.offered.find(kChoice);
+  const bool isOffered =
+      offered != result.offered.end() && std::any_of(offered->second.begin(), offered->second.end(),
+                                                     [&](const auto& one) { return one.first == prefix_; });
+  if (!isOffered) differs(fmt::format("the property `{}` does not offer `{}`", kChoice, prefix_));
+  const auto first = result.defined.find(kChoice);
+  if (first != result.defined.end() && first->second == prefix_)
+    differs(fmt::format("the property `{}` begins with `{}`: each drilling operation would print the cycle",
+                        kChoice, prefix_));
+  for (const auto& [name, scope] : result.scopes)
+    if ((name == kChoice || name.starts_with(prefix_ + "_")) && scope != "operation")
+      differs(fmt::format("the property `{}` has the scope `{}`: one operation could not have its own value",
+                          name, scope));
+}
+
+// The operation of another cycle, a document in inches, an operation that the post surrounds with calls, a
+// further point of an operation.
 void OperationDemands::runElsewhere(const TargetCase& now, TargetRun& out) {
   fusion::RunInput input = operationOf(now.drawn, prefix_);
   input.chosen = false;
@@ -78,6 +102,14 @@ void OperationDemands::runElsewhere(const TargetCase& now, TargetRun& out) {
                 "a probing operation has to be an error, and the post has to print nothing else for it; " +
                     (result.errors.empty() || result.taken ? didInstead(result)
                                                            : "its dispatch does not return true"));
+  input = operationOf(now.drawn, prefix_);
+  const std::string once = fragment_.run(input).text;
+  input.points.push_back(input.points.front());
+  result = fragment_.run(input);
+  if (result.fault || result.errors.empty() || result.text != once || !result.taken)
+    out.differs(verify::Aspect::Ending,
+                "a further point of the operation has to be an error: nothing moves there; " +
+                    didInstead(result));
 }
 
 // What the dialog of the operation begins with.
@@ -222,6 +254,30 @@ void OperationDemands::runWithoutSense(const TargetCase& now, TargetRun& out) {
     demandError(now, host, input, fmt::format("a half as {}", host), out);
   }
   runWithoutBall(now, out);
+}
+
+// What the post prints otherwise one step beside, the fragment does, too: limits of what is measured decide
+// nothing in most cases. For another set it may print half of the value.
+void OperationDemands::runBeside(const TargetCase& now, TargetRun& out) {
+  for (const verify::DrawField& field : from_.plan.fields) {
+    const auto drawn = now.drawn.values.find(field.name);
+    if (field.fixed || !field.choices.empty() || drawn == now.drawn.values.end()) continue;
+    const double step = (sameSet_ ? 1 : 2) * std::pow(10.0, -field.decimals);
+    for (const double value : {drawn->second + step, drawn->second - step}) {
+      if (!out.differences.empty()) return;
+      fusion::RunInput input = operationOf(now.drawn, prefix_);
+      const auto property = input.properties.find(fusion::propertyOf(prefix_, field.name));
+      if (property == input.properties.end() || !now.questions->prints(field.name, {value})) continue;
+      property->second = inJob(value);
+      const fusion::RunResult result = fragment_.run(input);
+      if (result.ok() && result.text == right_)
+        out.differs(
+            verify::Aspect::Printed,
+            fmt::format("{} as `{}` instead of {}: the post prints other digits, and the fragment the "
+                        "same",
+                        numberText(value), field.name, numberText(drawn->second)));
+    }
+  }
 }
 
 // What does not fit its picture.

@@ -35,6 +35,7 @@ public:
 
 private:
   void runElsewhere(const TargetCase& now, TargetRun& out);
+  void compareChoice(const backends::fusion::RunResult& result, TargetRun& out) const;
   void compareDefinition(const verify::DrawField& field, const backends::fusion::RunResult& result,
                          TargetRun& out);
   void demandError(const TargetCase& now, const std::string& name, const backends::fusion::RunInput& input,
@@ -45,6 +46,7 @@ private:
                    const std::string& what, TargetRun& out);
   void runRejected(const TargetCase& now, TargetRun& out);
   void runWithoutSense(const TargetCase& now, TargetRun& out);
+  void runBeside(const TargetCase& now, TargetRun& out);
   void runTooLarge(const TargetCase& now, TargetRun& out);
   void runWithoutBall(const TargetCase& now, TargetRun& out);
   void runWithout(const verify::DrawField& field, const TargetCase& now,

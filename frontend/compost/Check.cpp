@@ -14,10 +14,20 @@ std::string lower(std::string_view text) {
   return result;
 }
 
+bool defines(const stdlib::Form& form, std::string_view name, WordKind kind) {
+  switch (kind) {
+  case WordKind::Numeric: return form.numerics.contains(name);
+  case WordKind::Boolean: return form.booleans.contains(name);
+  case WordKind::Command: return form.commands.contains(name) || form.sequences.contains(name);
+  }
+  return false;
+}
+
 } // namespace
 
-CheckedProg::CheckedProg(const Program& prog, const stdlib::ComPostKeywords& known, const SourceMap& files)
-    : program(prog), keywords(known), sources(files) {
+CheckedProg::CheckedProg(const Program& prog, const stdlib::ComPostKeywords& known, const SourceMap& files,
+                         const stdlib::Form* form)
+    : program(prog), keywords(known), sources(files), form_(form) {
   for (const Item& item : program.items) {
     const auto* routine = std::get_if<Routine>(&item);
     if (routine == nullptr) continue;
@@ -62,6 +72,7 @@ void CheckedProg::visit(const Condition& condition) {
 
 void CheckedProg::spell(std::string_view name, WordKind kind, SourceRange range) {
   const stdlib::ComPostKeyword* keyword = keywords.find(name);
+  if (keyword == nullptr && form_ != nullptr && defines(*form_, name, kind)) return;
   // A known keyword with another suffix is wrong each time; what is not known is reported once.
   if (keyword == nullptr &&
       !spelt_.insert(std::string(name) + static_cast<char>('0' + static_cast<int>(kind))).second)

@@ -3,6 +3,7 @@
 
 #include "frontend/compost/Ast.h"
 #include "stdlib/ComPostKeywords.h"
+#include "stdlib/Form.h"
 #include "support/Check.h"
 #include "support/Source.h"
 
@@ -18,7 +19,9 @@ namespace dotek::frontend::compost {
 // A parsed Prog, and what several checks ask of it. What is passed outlives it.
 class CheckedProg {
 public:
-  CheckedProg(const Program& prog, const stdlib::ComPostKeywords& known, const SourceMap& files);
+  // `form`: that of the post, which may define words of its own; nullptr: not known.
+  CheckedProg(const Program& prog, const stdlib::ComPostKeywords& known, const SourceMap& files,
+              const stdlib::Form* form = nullptr);
 
   const Program& program;
   const stdlib::ComPostKeywords& keywords;
@@ -34,7 +37,8 @@ public:
   bool calls(const Word& word) const {
     return word.kind == WordKind::Command && routines.contains(word.name);
   }
-  // The names that words and FORMAT use, the first of each spelling; calls are left out.
+  // The names that words and FORMAT use, the first of each spelling; calls and words that the form alone
+  // defines are left out.
   struct Spelling {
     std::string_view name;
     WordKind kind = WordKind::Command;
@@ -54,6 +58,7 @@ private:
   void visit(const Condition& condition);
   void spell(std::string_view name, WordKind kind, SourceRange range);
 
+  const stdlib::Form* form_;
   std::map<std::string, std::string> routineCases_; // lower case to the first spelling
   std::set<std::string> spelt_;
 };

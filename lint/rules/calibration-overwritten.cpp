@@ -9,8 +9,6 @@
 namespace dotek::lint::rule {
 namespace {
 
-constexpr std::uint32_t kFirstKept = 500; // on Fanuc
-
 // n of `#n=`; nothing: another block.
 std::optional<std::uint32_t> storedIn(const ProgBlock& block) {
   const std::string text = block.text();
@@ -20,17 +18,6 @@ std::optional<std::uint32_t> storedIn(const ProgBlock& block) {
   const std::size_t equals = text.find_first_not_of(' ', static_cast<std::size_t>(end - text.data()));
   if (error != std::errc() || equals == std::string::npos || text[equals] != '=') return std::nullopt;
   return number;
-}
-
-// What the macros keep at power off is their calibration.
-bool isKept(const Project& project, std::uint32_t number) {
-  const auto keeps = [&](const stdlib::Control& control) {
-    for (const stdlib::VariableRange& range : control.common)
-      if (range.kept && number >= range.first && number <= range.last) return true;
-    return false;
-  };
-  if (project.postControl != nullptr) return keeps(*project.postControl);
-  return number >= kFirstKept;
 }
 
 void check(const Project& project, Report& report) {
@@ -51,11 +38,7 @@ void check(const Project& project, Report& report) {
     }
     for (const auto& [number, range] : stores)
       for (const auto& [set, call] : called) {
-        const auto holds = [&, one = number](const auto& part) {
-          return one >= part.first && one <= part.second;
-        };
-        if (!std::any_of(set->scratch.begin(), set->scratch.end(), holds) || !isKept(project, number))
-          continue;
+        if (!set->keepsCalibration(number)) continue;
         report
             .at(range,
                 "#{} is one of the variables in which {} keeps the calibration of the stylus; after this "
@@ -100,11 +83,7 @@ void checkProgram(const NcProgram& nc, Report& report) {
   }
   for (const ir::ProgramStatement& statement : program.body) {
     const auto number = storedNumber(statement);
-    const bool holds = number && *number >= kFirstKept &&
-                       std::any_of(called->scratch.begin(), called->scratch.end(), [&](const auto& part) {
-                         return *number >= part.first && *number <= part.second;
-                       });
-    if (!holds) continue;
+    if (!number || !called->keepsCalibration(*number)) continue;
     report
         .at(statement.origin.range(),
             "#{} is one of the variables in which {} keeps the calibration of the stylus; after this every "

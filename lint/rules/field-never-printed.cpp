@@ -68,8 +68,8 @@ Uses usesOf(const gibbs::Cycle& cycle) {
   return out;
 }
 
-// Fields that a macro before the path computes and no input of the dialog takes: they are there for the path.
-std::set<std::string> computedForPath(const gibbs::Cycle& cycle) {
+// Fields that a macro before the path computes and no input of the dialog takes: nobody types them.
+std::set<std::string> computedOnly(const gibbs::Cycle& cycle) {
   std::set<std::string> out;
   if (!cycle.dialog || cycle.dialog->hasErrorNodes || !cycle.otherDialogs.empty()) return out;
   for (const gibbs::Macro* macro : macrosOf(cycle)) {
@@ -106,7 +106,7 @@ void check(const Project& project, Report& report) {
     }
     // A post that prints no field at all is no post of this cycle.
     if (branches.empty()) continue;
-    const std::set<std::string> ofPath = computedForPath(*cycle);
+    const std::set<std::string> computed = computedOnly(*cycle);
     shown = &branches.front();
     const Uses uses = usesOf(*cycle);
     std::set<std::string> drawn;
@@ -117,8 +117,7 @@ void check(const Project& project, Report& report) {
       const std::string key = gibbs::foldCase(definition.name.text);
       // A length that only bounds other fields has no place in the program; one that the path draws has.
       const bool bound = uses.bounds.contains(key) && !drawn.contains(key);
-      if (ofPath.contains(key) && drawn.contains(key)) continue;
-      if (printed.contains(key) || uses.computes.contains(key) || bound ||
+      if (computed.contains(key) || printed.contains(key) || uses.computes.contains(key) || bound ||
           project.gibbsKeywords.isReservedField(key))
         continue;
       report

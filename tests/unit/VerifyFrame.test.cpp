@@ -211,6 +211,12 @@ TEST_CASE("verify sees what a fragment owes its post") {
       {"toolRadius <= 0", "<=", "<", "a ball without a radius has to be an error"},
       {"G % 1 !== 0", "G % 1 !== 0", "false", "a half as `G` has to be an error"},
       {"XText === null", "XText === null", "false", "does not fit and has to be an error"},
+      {"if (!isFirstCyclePoint())", "!isFirst", "false && !isFirst",
+       "a further point of the operation has to be an error"},
+      {"value: \"none\",", "none", "surfaceX", "begins with `surfaceX`"},
+      {"values.push(", "", "", "does not offer `surfaceX`"},
+      {"scope: \"operation\"", "operation", "post", "has the scope `post`"},
+      {"var IText", "####.##", "####.#", "the post prints other digits"},
   };
   for (const Damage& damage : damages) {
     CAPTURE(damage.part);
