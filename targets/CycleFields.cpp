@@ -104,6 +104,11 @@ void add(verify::DrawField field, const LoweringInputs& inputs, VerifyPlan& plan
   if (field.kind == ir::Kind::WorkOffset) {
     field.firstSystem = firstSystemOf(field);
     if (macros != nullptr && inputs.sourceControl) findExtended(field, *macros, *inputs.sourceControl);
+    // A control without these systems refuses them.
+    if (inputs.control && !inputs.control->variables.extendedX && !field.extendedAlone) {
+      std::erase_if(field.choices, [&](double value) { return field.systemOf(value) == 0; });
+      field.extended.clear();
+    }
   }
   if (field.kind == ir::Kind::ToolOffset)
     for (const auto& control : {inputs.control, inputs.sourceControl})

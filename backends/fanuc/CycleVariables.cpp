@@ -84,6 +84,17 @@ private:
     return there.number;
   }
 
+  // A call that measures, of the same set as the source's, leaves a result there.
+  bool leaves(const ir::CycleStatement& statement, std::uint32_t number) const {
+    const auto* call = std::get_if<ir::CallCycle>(&statement.node);
+    const bool measures =
+        std::holds_alternative<ir::Measure>(statement.node) || (call != nullptr && !call->results.empty());
+    const auto& overwritten = state_.macros.overwritten;
+    return measures && state_.options.source == &state_.macros &&
+           std::any_of(overwritten.begin(), overwritten.end(),
+                       [&](const auto& range) { return range.first <= number && number <= range.second; });
+  }
+
   // By the branch, before the statement that reads it.
   bool isWrittenFirst(std::uint32_t number) {
     if (at_ == nullptr) return false;
@@ -92,7 +103,7 @@ private:
     if (isNew)
       found->second = reachedUnwritten(body, [&](const ir::CycleStatement& statement) {
         const auto* store = std::get_if<ir::Store>(&statement.node);
-        return store != nullptr && wholeOf(store->number) == number;
+        return store != nullptr ? wholeOf(store->number) == number : leaves(statement, number);
       });
     return !found->second[static_cast<std::size_t>(at_ - body.data())];
   }

@@ -79,6 +79,7 @@ void SimWorld::offsetWritten(const OffsetWrite& write) {
   if (machineNow_ == nullptr) return;
   checkMiss(write);
   checkWear(write);
+  if (write.tool != 0 && lengthsBefore_.contains(write.tool)) lengthsWritten_[write.tool] = place_();
   const double inForce = std::abs(machineNow_->toolLength());
   const double moved = write.after - write.before;
   const bool zero = write.name.ends_with(" Z");

@@ -88,6 +88,28 @@ void SimWorld::checkWear(const OffsetWrite& write) {
            Verdict::Doubt, "PASS, WEAR THE WRONG WAY", place_());
 }
 
+// The offset was the tool's length and is far from it now, or is the length with the other sign. What an
+// offset counts from is the shop's: others than these may be meant.
+void SimWorld::tellToolLengths() {
+  constexpr double kSame = 5; // mm
+  if (machineNow_ == nullptr || !end_) return;
+  const Ending ending = end_().ending;
+  if (ending != Ending::ProgramEnd && ending != Ending::TextEnd) return;
+  for (const auto& [number, place] : lengthsWritten_) {
+    const CuttingTool* const tool = machine_->devices.find(number);
+    if (tool == nullptr || tool->length <= kSame) continue;
+    const double before = lengthsBefore_.at(number), after = machineNow_->toolLengthOf(number);
+    const bool turned = std::abs(after + tool->length) <= kSame;
+    const bool lost = std::abs(before - tool->length) <= kSame && std::abs(after - tool->length) > kSame;
+    if (!turned && !lost) continue;
+    const double off = after - tool->length;
+    addFault(makeDiagnostic<diag::ToolOffsetNotLength>(place.range, number, fixedText(after, decimals_),
+                                                       fixedText(tool->length, decimals_),
+                                                       (off > 0 ? "+" : "") + fixedText(off, decimals_)),
+             Verdict::Fail, "FAIL: TOOL OFFSET WRONG", place);
+  }
+}
+
 std::string SimWorld::startText() const {
   if (setup_.call.empty() || machineNow_ == nullptr || contactCount_ > 0) return "";
   const bool isSaid = setup_.at || (machine_ && machine_->start != std::array<double, 3>{});

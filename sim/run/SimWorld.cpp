@@ -218,6 +218,9 @@ void SimWorld::attach(Machine& machine) {
   position_ = [&machine] { return machine.position(); };
   start_ = startOf(machine);
   startSystem_ = machine.activeSystem().index;
+  if (machine_)
+    for (const CuttingTool& tool : machine_->devices.tools)
+      lengthsBefore_[tool.number] = machine.toolLengthOf(tool.number);
   if (setup_.at || machine_) machine.startAt(start_);
   tellZeroLeftOut(machine);
   if (!isActive()) {
@@ -495,6 +498,7 @@ void SimWorld::finishPicture() {
   settleMiss();
   tellUnseen();
   tellFar();
+  tellToolLengths();
   log_.finish();
   if (!recorder_) return;
   addWarnings();

@@ -231,6 +231,7 @@ private:
   // SimTouch.cpp: touches that measure something else than the program takes them for.
   void checkEdge(const ProbeEvent& event, const RunPlace& place);
   void checkWear(const OffsetWrite& write);
+  void tellToolLengths(); // at the end of the run: offsets of tools whose length the machine's file knows
   void followClearance(const MachineMotion& motion);
   void tellFar(); // at the end of the run
   void addTold(Diagnostic diagnostic, std::size_t kind, const RunPlace& place);
@@ -248,6 +249,8 @@ private:
   Device* device_ = nullptr;
   Session& session_;
   std::optional<MachineFile> machine_;
+  std::map<std::uint32_t, double> lengthsBefore_;    // of the tools of the machine's file: their offsets
+  std::map<std::uint32_t, RunPlace> lengthsWritten_; // where one was last written
   Setup setup_;
   std::optional<std::array<double, 3>> partZero_; // where the part is meant to be
   std::optional<std::uint8_t> zeroLeftOut_;       // a system that was to be there, and there is no part

@@ -73,9 +73,10 @@ def impossible_rows():
 
 
 # A message may name flags that mend the refusal; what an engineer would then type. Each is tried once, and told in the table.
-def remedy(message, used):
+def remedy(message, used, control):
+    codes = ["M31", "M32"] if not control.startswith("haas") else ["M61", "M62"]  # M31 is the chip conveyor there
     offers = [
-        (r"--probe-on\b", ["--probe-on", "M31", "--probe-off", "M32"]),
+        (r"--probe-on\b", ["--probe-on", codes[0], "--probe-off", codes[1]]),
         (r"--probe-power macro", ["--probe-power", "macro"]),
         (r"--assume plain-messages", ["--assume", "plain-messages"]),
         (r"--datum operator", ["--datum", "operator"]),
@@ -127,7 +128,7 @@ def measure(cell):
                 break
             place, cell.message, cell.code = first_error(errors)
             cell.message = f"{place}: {cell.message}" if place else cell.message
-            flags = remedy(errors, cell.flags)
+            flags = remedy(errors, cell.flags, cell.control)
             if not flags:
                 cell.state = "impossible" if cell.fact else "refused"
                 return cell
@@ -154,7 +155,7 @@ def measure(cell):
 
 def matrix(chosen):
     sets = listed("macros", r"\S")
-    controls = listed("controls", r"^fanuc")
+    controls = listed("controls", r"^(fanuc|haas)")
     mikroprog = listed("controls", r"^mikroprog")
     rows = impossible_rows()
 

@@ -205,3 +205,25 @@ TEST_CASE(
   CHECK(report.status != 0);
   CHECK(has(report, "`--svg OUT` (to print) and `--html OUT`"));
 }
+
+TEST_CASE("tool setter: an offset that is not the length of the tool fails the run") {
+  const Bench bench;
+  // The setter's face lies at Z-430 of the machine.
+  const std::string touch =
+      "O1\nG21 G90 G94 G17 G40 G80\nG53 G0 X-50. Y-40.\nG49\nG53 Z-340.\nG91 G31 Z-15. F100\n"
+      "G90\n";
+  const CommandResult right = bench.run(touch + "#2205=#5023+430.\nM30\n");
+  CHECK_FALSE(has(right, "tool-offset-not-length"));
+  const CommandResult turned = bench.run(touch + "#2205=-430.-#5023\nM30\n");
+  CHECK(turned.status == 1);
+  CHECK(has(
+      turned,
+      "the offset of tool 5 is -80.000 at the end of the run, and the tool is 80.000 mm long (-160.000)"));
+  // What counts from somewhere else.
+  CHECK(has(bench.run(touch + "#2205=#5023+530.\nM30\n"), "is 180.000 at the end of the run"));
+  // Set back and measured: what it is in between is nobody's business.
+  CHECK_FALSE(has(bench.run(touch + "#2205=0\n#2205=#5023+430.\nM30\n"), "tool-offset-not-length"));
+  // Another shop counts from the table: the offset never was the length.
+  CHECK_FALSE(
+      has(bench.run(touch + "#2205=#5023+400.\nM30\n", "--tool 5 --length 50"), "tool-offset-not-length"));
+}
