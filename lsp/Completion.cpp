@@ -3,6 +3,7 @@
 #include "lsp/Server.h"
 #include "support/Ascii.h"
 
+#include <algorithm>
 #include <set>
 
 namespace dotek::lsp {
@@ -59,7 +60,15 @@ Json completion(Workspace& workspace, const Json& params) {
                         offset,
                         index.utf8(std::string_view(file.bytes()).substr(start, offset - start)),
                         session};
+    // What is being typed is a name of the text, too; it is offered where it stands elsewhere.
+    const std::string typed(lastWord(typing.before));
+    const auto uses =
+        std::count_if(index.occurrences.begin(), index.occurrences.end(), [&](const Occurrence& one) {
+          return one.range.end - one.range.begin == typed.size() &&
+                 index.sources.textUtf8(one.range) == typed;
+        });
     for (const Proposal& one : proposals(typing)) {
+      if (one.label.empty() || (one.label == typed && uses < 2)) continue;
       Json item = {{"label", one.label}, {"kind", one.kind}};
       if (!one.detail.empty()) item["detail"] = one.detail;
       if (!one.documentation.empty())

@@ -10,6 +10,7 @@ local patterns = {
   "[Dd]efine[Dd]ata.txt", "DEFINEDATA.TXT", "*[Pp]ost*.txt", "*[Pp]rog*.txt",
 }
 local commands = { "post", "convert", "run", "verify", "preview" }
+local last_messages = ""
 
 -- What a command gives, beside the text: a window that `q` closes, or for a page the browser.
 local function show(result)
@@ -21,7 +22,7 @@ local function show(result)
     else
       vim.fn.jobstart({ vim.fn.has("mac") == 1 and "open" or "xdg-open", file }, { detach = true })
     end
-    print("Dotek: " .. file)
+    print("Dotek: the page is " .. file .. " until Neovim ends")
     return
   end
   local origin = vim.api.nvim_get_current_win()
@@ -71,6 +72,28 @@ local function request(client, method, params, buffer, done)
   end
 end
 
+-- The gravest of the messages of a command, and how many there are.
+local function told(result)
+  last_messages = result.messages or ""
+  local lines, worst = {}, 1
+  for _, line in ipairs(vim.split(result.messages or "", "\n")) do
+    for rank, kind in ipairs({ ": error: ", ": warning: ", ": note: " }) do
+      if line:find(kind, 1, true) then
+        table.insert(lines, { rank, line })
+        if rank < lines[worst][1] then
+          worst = #lines
+        end
+        break
+      end
+    end
+  end
+  if #lines == 0 or (result.status == 0 and lines[worst][1] == 3) then
+    return
+  end
+  local more = #lines > 1 and string.format(" (1 of %d messages; :Dotek messages shows all)", #lines) or ""
+  vim.notify("Dotek: " .. lines[worst][2] .. more, vim.log.levels.WARN)
+end
+
 -- Runs a command on the text of a buffer. Values that it refuses to do without are asked for, once each.
 local function run(name, options, buffer, asked)
   buffer = (buffer == nil or buffer == 0) and vim.api.nvim_get_current_buf() or buffer
@@ -102,9 +125,7 @@ local function run(name, options, buffer, asked)
       return
     end
     show(result)
-    if result.status ~= 0 and result.messages ~= "" then
-      vim.notify("Dotek: " .. vim.split(result.messages, "\n")[1], vim.log.levels.WARN)
-    end
+    told(result)
   end)
 end
 
@@ -125,7 +146,7 @@ vim.lsp.commands["dotek.explain"] = function(command)
   explain(command.arguments[1])
 end
 
--- :Dotek run [html] [target], :Dotek explain [code]
+-- :Dotek run [html] [target], :Dotek explain [code], :Dotek messages
 local function dotek(arguments)
   local name, options = arguments[1] or "run", {}
   if name == "explain" then
@@ -136,6 +157,10 @@ local function dotek(arguments)
     else
       vim.notify("Dotek: no finding is in this line", vim.log.levels.WARN)
     end
+    return
+  end
+  if name == "messages" then
+    show({ title = "messages", language = "plaintext", text = last_messages })
     return
   end
   for i = 2, #arguments do
@@ -157,7 +182,7 @@ local function attached(buffer)
     end, {
       nargs = "*",
       complete = function()
-        return { "post", "convert", "run", "verify", "preview", "explain" }
+        return { "post", "convert", "run", "verify", "preview", "explain", "messages" }
       end,
     })
   end

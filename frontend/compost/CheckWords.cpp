@@ -3,6 +3,7 @@
 #include "frontend/compost/Slips.h"
 #include "support/NearestName.h"
 #include "support/Picture.h"
+#include "support/WriteInstead.h"
 
 #include <algorithm>
 
@@ -92,10 +93,15 @@ void keywordMisspelt(const CheckedProg& input, Report& report) {
   for (const CheckedProg::Spelling& spelt : input.spellings) {
     if (report.full(spelt.range.file)) continue;
     const std::string meant = input.slipOf(spelt);
-    if (!meant.empty())
-      report.at(spelt.range,
-                "`{}` is neither a routine of this Prog nor a keyword that Dotek knows; did you mean `{}`?",
-                input.text(spelt.range), meant);
+    if (meant.empty()) continue;
+    Diagnostic& found =
+        report.at(spelt.range,
+                  "`{}` is neither a routine of this Prog nor a keyword that Dotek knows; did you mean `{}`?",
+                  input.text(spelt.range), meant);
+    const std::string_view suffix = suffixOf(spelt.kind);
+    const bool apart =
+        !suffix.empty() && meant.ends_with(suffix) && !input.text(spelt.range).ends_with(suffix);
+    found.fix = writeInstead(spelt.range, meant.substr(0, meant.size() - (apart ? suffix.size() : 0)));
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include "frontend/compost/Slips.h"
 #include "support/NearestName.h"
+#include "support/WriteInstead.h"
 #include "support/messages/ComPost.h"
 
 namespace dotek::frontend::compost {
@@ -52,7 +53,16 @@ void FormWalk::word(const Word& word) {
   }
 }
 
-// "; did you mean .." with a word that the form or the Prog knows; "": none is near.
+namespace {
+
+// "; or did you mean ..": "" for "".
+std::string orDidYouMean(const std::string& meant, std::string_view suffix = "") {
+  return meant.empty() ? "" : fmt::format("; or did you mean `{}{}`?", meant, suffix);
+}
+
+} // namespace
+
+// A word that the form or the Prog knows; "": none is near.
 std::string FormWalk::meantCommand(const std::string& name) const {
   NearestName nearest(name);
   for (const auto& [known, entry] : form_.commands)
@@ -63,7 +73,7 @@ std::string FormWalk::meantCommand(const std::string& name) const {
     nearest.offer(known);
   for (const Item& item : program_.items)
     if (const auto* routine = std::get_if<Routine>(&item)) nearest.offer(routine->name);
-  return isSlip(name, nearest.result()) ? "; or did you mean `" + nearest.result() + "`?" : "";
+  return isSlip(name, nearest.result()) ? nearest.result() : "";
 }
 
 std::string FormWalk::meantNumeric(const std::string& name) const {
@@ -71,7 +81,7 @@ std::string FormWalk::meantNumeric(const std::string& name) const {
   nearest.offer(kFieldKeyword);
   for (const auto& [known, entry] : form_.numerics)
     nearest.offer(known);
-  return isSlip(name, nearest.result()) ? "; or did you mean `" + nearest.result() + "#`?" : "";
+  return isSlip(name, nearest.result()) ? nearest.result() : "";
 }
 
 void FormWalk::command(const Word& word) {
@@ -100,9 +110,10 @@ void FormWalk::command(const Word& word) {
     }
   }
   failed();
-  if (isNew(diag::CommandNotInForm::code, word.name))
-    refuse<diag::CommandNotInForm>(word.nameRange, word.name, form_.name, form_.origin,
-                                   meantCommand(word.name));
+  if (!isNew(diag::CommandNotInForm::code, word.name)) return;
+  const std::string meant = meantCommand(word.name);
+  refuse<diag::CommandNotInForm>(word.nameRange, word.name, form_.name, form_.origin, orDidYouMean(meant))
+      .fix = writeInstead(word.nameRange, meant);
 }
 
 const Picture* FormWalk::commandPicture(const std::string& name, const std::string& text) {
@@ -126,9 +137,11 @@ void FormWalk::numeric(const Word& word) {
     const auto entry = form_.numerics.find(word.name);
     if (entry == form_.numerics.end() || entry->second.value.empty()) {
       failed();
-      if (isNew(diag::NumericNotInForm::code, word.name))
-        refuse<diag::NumericNotInForm>(word.nameRange, word.name, form_.name, form_.origin,
-                                       meantNumeric(word.name));
+      if (!isNew(diag::NumericNotInForm::code, word.name)) return;
+      const std::string meant = meantNumeric(word.name);
+      refuse<diag::NumericNotInForm>(word.nameRange, word.name, form_.name, form_.origin,
+                                     orDidYouMean(meant, "#"))
+          .fix = writeInstead(word.nameRange, meant);
       return;
     }
     tables_.noteAssumed(word.name, entry->second, word.range, *diagnostics_);

@@ -42,9 +42,9 @@ protected:
   bool grow(std::size_t bytes, SourceRange where);
   bool stopped() const { return stopped_; }
 
-  template <class Id, class... Args> void refuse(SourceRange range, const Args&... args) {
+  template <class Id, class... Args> Diagnostic& refuse(SourceRange range, const Args&... args) {
     failed();
-    diagnostics_->report<Id>(range, args...);
+    return diagnostics_->report<Id>(range, args...);
   }
   // The first time for this cause, such as a word that many lines use: report it.
   bool isNew(std::string_view code, std::string_view cause) {

@@ -3,6 +3,7 @@
 #include "frontend/gibbs/Explain.h"
 #include "frontend/gibbs/Unverified.h"
 #include "support/NearestName.h"
+#include "support/WriteInstead.h"
 
 #include <algorithm>
 
@@ -82,7 +83,7 @@ void unknownCommand(const CheckedFile& input, Report& report) {
     const stdlib::GibbsKeywords& keywords = input.keywords;
     if (keywords.isCore(key) || keywords.renamedTo(key) || !keywords.commands(key).empty()) return;
     if (keywords.isCommand(key) || keywords.hasCommandPrefix(key) || report.full(input.file)) return;
-    std::string remedy;
+    std::string remedy, meant;
     if (const std::string foreign = explainForeignWord(key); !foreign.empty())
       remedy = "; " + foreign;
     else if (input.variables.contains(key))
@@ -92,8 +93,9 @@ void unknownCommand(const CheckedFile& input, Report& report) {
     else if (!keywords.dialogControls(key).empty())
       remedy = "; it is a control, which is in a dialog file (.dlg)";
     else
-      remedy = didYouMean(keywords.nearestCommand(key));
-    report.at(command.name.range, "no source knows a command `{}`{}", command.name.text, remedy);
+      remedy = didYouMean(meant = keywords.nearestCommand(key));
+    report.at(command.name.range, "no source knows a command `{}`{}", command.name.text, remedy).fix =
+        writeInstead(command.name.range, meant);
   });
 }
 
@@ -143,9 +145,11 @@ void unknownFunction(const CheckedFile& input, Report& report) {
     const auto* call = std::get_if<FunctionCall>(&expression->node);
     const Name& name = call != nullptr ? call->name : std::get<VariableRef>(expression->node).name;
     const std::string nearest = input.keywords.nearestFunction(name.text);
-    report.at(name.range, "no source knows a function `{}`{}", name.text,
-              nearest.empty() && call == nullptr ? "; an array of this name is not declared here either"
-                                                 : didYouMean(nearest));
+    report
+        .at(name.range, "no source knows a function `{}`{}", name.text,
+            nearest.empty() && call == nullptr ? "; an array of this name is not declared here either"
+                                               : didYouMean(nearest))
+        .fix = writeInstead(name.range, nearest);
   }
 }
 
@@ -209,9 +213,10 @@ void argumentKind(const CheckedFile& input, Report& report) {
 }
 
 void unknownParameter(const CheckedFile& input, Report& report) {
-  const auto tell = [&](const CheckedFile::Call& call, SourceRange range, const std::string& tail) {
-    report.at(range, "`{}` has no parameter `{}`; GibbsCAM stops at the line{}", call.name->text,
-              input.text(range), tail);
+  const auto tell = [&](const CheckedFile::Call& call, SourceRange range,
+                        const std::string& tail) -> Diagnostic& {
+    return report.at(range, "`{}` has no parameter `{}`; GibbsCAM stops at the line{}", call.name->text,
+                     input.text(range), tail);
   };
   eachUnlisted(input, Misfit::Kind::Choice,
                [&](const CheckedFile::Call& call, std::size_t argument, const Expression& given) {
@@ -223,15 +228,17 @@ void unknownParameter(const CheckedFile& input, Report& report) {
                    nearest.offer(each);
                  tell(call, given.range,
                       nearest.result().empty() ? "; here is one of " + listed(known)
-                                               : didYouMean(nearest.result()));
+                                               : didYouMean(nearest.result()))
+                     .fix = writeInstead(given.range, nearest.result());
                });
   eachUnlisted(input, Misfit::Kind::Parameter,
                [&](const CheckedFile::Call& call, std::size_t argument, const Expression& given) {
                  const std::string& family = call.match.specs[argument]->family;
                  if (!input.keywords.hasFamily(family) || input.keywords.isOpenFamily(family)) return;
                  if (report.full(input.file)) return;
-                 tell(call, given.range,
-                      didYouMean(input.keywords.nearestParameter(family, keywordText(given, input.sources))));
+                 const std::string meant =
+                     input.keywords.nearestParameter(family, keywordText(given, input.sources));
+                 tell(call, given.range, didYouMean(meant)).fix = writeInstead(given.range, meant);
                });
 }
 

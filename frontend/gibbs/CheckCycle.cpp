@@ -2,6 +2,7 @@
 #include "frontend/gibbs/Check.h"
 #include "frontend/gibbs/Walk.h"
 #include "support/NearestName.h"
+#include "support/WriteInstead.h"
 
 #include <algorithm>
 #include <array>
@@ -139,11 +140,12 @@ void undefinedVariable(const CheckedCycle& input, Report& report) {
     for (const auto& [folded, text] : input.spelt)
       nearest.offer(text);
     nearest.offer(keywords.nearestVariable(key));
-    report.at(name->range,
-              "nothing in this cycle sets `{}`; GibbsCAM takes it for a new global variable, most likely 0{}",
-              name->text,
-              nearest.result().empty() ? "; set it, or add it to DefineData.txt"
-                                       : didYouMean(nearest.result()));
+    report
+        .at(name->range,
+            "nothing in this cycle sets `{}`; GibbsCAM takes it for a new global variable, most likely 0{}",
+            name->text,
+            nearest.result().empty() ? "; set it, or add it to DefineData.txt" : didYouMean(nearest.result()))
+        .fix = writeInstead(name->range, nearest.result());
   }
 }
 
@@ -169,13 +171,14 @@ void inputNotDeclared(const CheckedCycle& input, Report& report) {
     NearestName nearest(key);
     for (const Definition& definition : input.cycle.defineData->definitions)
       nearest.offer(definition.name.text);
-    report.at(
-        control.variable->range,
-        "DefineData.txt does not declare `{}`; the operation does not keep what the user types here, and the "
-        "post cannot read it{}",
-        control.variable->text,
-        nearest.result().empty() ? fmt::format("; add `{} = 0` to DefineData.txt", control.variable->text)
-                                 : didYouMean(nearest.result()));
+    report
+        .at(control.variable->range,
+            "DefineData.txt does not declare `{}`; the operation does not keep what the user types here, and "
+            "the post cannot read it{}",
+            control.variable->text,
+            nearest.result().empty() ? fmt::format("; add `{} = 0` to DefineData.txt", control.variable->text)
+                                     : didYouMean(nearest.result()))
+        .fix = writeInstead(control.variable->range, nearest.result());
   });
 }
 

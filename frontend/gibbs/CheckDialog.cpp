@@ -1,6 +1,7 @@
 // Controls of a dialog, definitions of DefineData.txt.
 #include "frontend/gibbs/Check.h"
 #include "frontend/gibbs/Unverified.h"
+#include "support/WriteInstead.h"
 
 #include <algorithm>
 
@@ -72,8 +73,9 @@ void unknownControl(const CheckedFile& input, Report& report) {
   eachControl(input, [&](const Control& control, const std::string& key) {
     if (!input.keywords.dialogControls(key).empty() || input.keywords.isUnprovedControl(key)) return;
     if (report.full(input.file)) return;
-    report.at(control.kind.range, "no source knows a control `{}`{}", control.kind.text,
-              didYouMean(input.keywords.nearestControl(key)));
+    const std::string meant = input.keywords.nearestControl(key);
+    report.at(control.kind.range, "no source knows a control `{}`{}", control.kind.text, didYouMean(meant))
+        .fix = writeInstead(control.kind.range, meant);
   });
 }
 

@@ -2,6 +2,7 @@
 
 #include "frontend/gibbs/Walk.h"
 #include "support/NearestName.h"
+#include "support/WriteInstead.h"
 
 #include <algorithm>
 #include <map>
@@ -198,9 +199,10 @@ void undefinedLabel(const CheckedFile& input, Report& report) {
     NearestName nearest(name.text);
     for (const std::string& label : input.flow.labels)
       nearest.offer(label);
-    report.at(name.range, "there is no label `{}`; GibbsCAM stops when it reaches this line{}", name.text,
-              nearest.result().empty() ? "; write a line `:" + name.text + "`"
-                                       : didYouMean(nearest.result()));
+    report
+        .at(name.range, "there is no label `{}`; GibbsCAM stops when it reaches this line{}", name.text,
+            nearest.result().empty() ? "; write a line `:" + name.text + "`" : didYouMean(nearest.result()))
+        .fix = writeInstead(name.range, nearest.result());
   }
 }
 

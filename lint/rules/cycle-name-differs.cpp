@@ -1,6 +1,7 @@
 #include "lint/MacroNames.h"
 #include "lint/ProgBlocks.h"
 #include "support/NearestName.h"
+#include "support/WriteInstead.h"
 
 #include <algorithm>
 #include <cctype>
@@ -145,9 +146,11 @@ void check(const Project& project, Report& report) {
         const bool near = misspelt(id.text, folder) || (listsFolders && otherLetter(id.text, folder)) ||
                           (inItsPlace && listsFolders && misspeltInList(id.text, folder));
         if (!free || !near) continue;
-        report.at(id.range,
-                  "no folder has the name `{}`; did you mean `{}`? the branch is taken for no operation",
-                  id.text, folder);
+        report
+            .at(id.range,
+                "no folder has the name `{}`; did you mean `{}`? the branch is taken for no operation",
+                id.text, folder)
+            .fix = writeInstead(id.range, "'" + folder + "'");
         break;
       }
     }

@@ -1,5 +1,6 @@
 #include "lint/MacroNames.h"
 #include "support/NearestName.h"
+#include "support/WriteInstead.h"
 
 namespace dotek::lint::rule {
 namespace {
@@ -28,14 +29,14 @@ void check(const Project& project, Report& report) {
         NearestName nearest(field.name);
         for (const gibbs::Definition& definition : cycle.defineData->definitions)
           nearest.offer(definition.name.text);
-        report
-            .at(field.range,
-                "the cycle `{}` declares no field `{}`; the post prints 0 or nothing, and the probe does not "
-                "go "
-                "where the user said{}",
-                cycle.name, field.name,
-                nearest.result().empty() ? "" : "; did you mean `" + nearest.result() + "`?")
-            .note({cycle.defineData->file, 0, 0}, "the fields of the cycle are declared here");
+        const std::string meant = nearest.result();
+        Diagnostic& found = report.at(
+            field.range,
+            "the cycle `{}` declares no field `{}`; the post prints 0 or nothing, and the probe does not "
+            "go where the user said{}",
+            cycle.name, field.name, meant.empty() ? "" : "; did you mean `" + meant + "`?");
+        if (!meant.empty()) found.fix = writeInstead(field.range, "'" + meant + "'");
+        found.note({cycle.defineData->file, 0, 0}, "the fields of the cycle are declared here");
       }
     }
   }

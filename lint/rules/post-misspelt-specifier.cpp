@@ -1,5 +1,6 @@
 #include "lint/Posts.h"
 #include "support/NearestName.h"
+#include "support/WriteInstead.h"
 
 #include <algorithm>
 #include <array>
@@ -40,9 +41,11 @@ void check(const Project& project, Report& report) {
       const auto& words = known->words;
       if (std::find(words.begin(), words.end(), key) != words.end()) continue;
       const std::string near = nearestName(key, words);
-      report.at(post.tree.range(*one->kids[0]),
-                "`{}` is no specifier of {}: the engine passes over it in silence{}", key, name,
-                near.empty() ? "" : "; did you mean `" + near + "`?");
+      const SourceRange place = post.tree.range(*one->kids[0]);
+      Diagnostic& found =
+          report.at(place, "`{}` is no specifier of {}: the engine passes over it in silence{}", key, name,
+                    near.empty() ? "" : "; did you mean `" + near + "`?");
+      if (place.end - place.begin == key.size()) found.fix = writeInstead(place, near); // else in quotes
     }
   });
 }

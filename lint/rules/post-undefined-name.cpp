@@ -1,5 +1,6 @@
 #include "lint/Posts.h"
 #include "support/NearestName.h"
+#include "support/WriteInstead.h"
 
 #include <map>
 #include <set>
@@ -35,8 +36,11 @@ void check(const Project& project, Report& report) {
     offered.insert(offered.end(), post.names->all.begin(), post.names->all.end());
     for (const auto& [symbol, name] : first) {
       const std::string near = nearestName(symbol->name, offered);
-      report.at(post.tree.range(*name), "`{}` is defined nowhere: the post stops where it comes here{}",
-                symbol->name, near.empty() ? "" : "; did you mean `" + near + "`?");
+      const SourceRange place = post.tree.range(*name);
+      report
+          .at(place, "`{}` is defined nowhere: the post stops where it comes here{}", symbol->name,
+              near.empty() ? "" : "; did you mean `" + near + "`?")
+          .fix = writeInstead(place, near);
     }
   });
 }

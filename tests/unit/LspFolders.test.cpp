@@ -62,6 +62,16 @@ TEST_CASE("lsp: from the post to a cycle that is not open, and back") {
   CHECK_MESSAGE(text.find("10 at first") != std::string::npos, text);
   CHECK_MESSAGE(text.find("Reach [mm]") != std::string::npos, text);
   CHECK(client.labels(shop.progPath, 2, 21) == std::vector<std::string>{"X", "G"});
+  // A word that is half typed is no proposal.
+  const std::string half = "probe:\nIF CycleType?('side')\n 'G1X'OpFieldData#('XY') EOL\nEND\nRETURN\n";
+  client.open(shop.progPath, half);
+  CHECK(client.labels(shop.progPath, 2, 22) == std::vector<std::string>{"X", "G"});
+  const Json actions = client.result("textDocument/codeAction", all(shop.progPath));
+  const bool repairs = std::any_of(actions.begin(), actions.end(), [](const Json& one) {
+    return one["title"].get<std::string>().find("write `'X'`") != std::string::npos;
+  });
+  CHECK_MESSAGE(repairs, actions.dump());
+  client.open(shop.progPath, shop.prog);
 
   // From a macro: the dialog, the macros of the folder and the line of the post that prints this cycle.
   client.open(shop.macroPath, shop.macro);
