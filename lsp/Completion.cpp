@@ -60,7 +60,7 @@ Json completion(Workspace& workspace, const Json& params) {
                         offset,
                         index.utf8(std::string_view(file.bytes()).substr(start, offset - start)),
                         session};
-    // What is being typed is a name of the text, too; it is offered where it stands elsewhere.
+    // What is being typed is a name of the text itself; it is offered where the text has it elsewhere, too.
     const std::string typed(lastWord(typing.before));
     const auto uses =
         std::count_if(index.occurrences.begin(), index.occurrences.end(), [&](const Occurrence& one) {
