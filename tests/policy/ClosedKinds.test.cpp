@@ -1,7 +1,9 @@
 // What ir/Match.h promises: a kind of statement, expression or condition, or an operator, that is added stops
 // the build of every consumer. The test plants some into copies of the headers and has the compiler look at
 // each file that chooses by kind: an error is wanted at each such place.
+#include "tests/Draws.h"
 #include "tests/GoldenRunner.h"
+#include "tests/Skips.h"
 #include "tests/policy/Tree.h"
 
 #include <algorithm>
@@ -225,6 +227,7 @@ void compile(Look& look, const fs::path& folder, std::size_t number) {
 } // namespace
 
 TEST_CASE("policy: a kind or an operator that is added stops the build of each consumer") {
+  if (fewDraws()) return skip("the compiler is asked without the sanitizers, which double its time");
   if (std::system(fmt::format("'{}' --version > /dev/null 2>&1", DOTEK_COMPILER).c_str()) != 0) {
     ++settings().toolSkipped;
     MESSAGE("no compiler to ask: " DOTEK_COMPILER);

@@ -29,7 +29,7 @@ constexpr const char* kOwn = "dotek.nc";
 constexpr std::size_t kNamed = 7; // operators that the acceptance names are first
 
 struct Size {
-  std::size_t faults = draws<std::size_t>(60);
+  std::size_t faults = draws<std::size_t>(60, 8);
   std::uint64_t cases = draws<std::uint64_t>(40);
   std::uint64_t seed = 1;
 };
