@@ -100,8 +100,9 @@ private:
     if (at_ == nullptr) return false;
     const auto& body = state_.cycle.body;
     auto [found, isNew] = unwritten_.try_emplace(number);
+    if (!flow_) flow_ = ir::flowOf(body);
     if (isNew)
-      found->second = reachedUnwritten(body, [&](const ir::CycleStatement& statement) {
+      found->second = reachedUnwritten(body, *flow_, [&](const ir::CycleStatement& statement) {
         const auto* store = std::get_if<ir::Store>(&statement.node);
         return store != nullptr ? wholeOf(store->number) == number : leaves(statement, number);
       });
@@ -140,6 +141,7 @@ private:
   State& state_;
   SourceRange range_;
   const ir::CycleStatement* at_ = nullptr; // of the body; nullptr: of the checks
+  std::optional<ir::ProgramFlow> flow_;    // of the body, once it is asked for
   std::map<std::uint32_t, std::vector<bool>> unwritten_;
 };
 

@@ -73,8 +73,9 @@ private:
   // off makes no difference.
   bool isFilled(std::uint32_t number) {
     auto [found, isNew] = unwritten_.try_emplace(number);
+    if (!flow_) flow_ = ir::flowOf(program_.body);
     if (isNew)
-      found->second = reachedUnwritten(program_.body, [&](const ir::ProgramStatement& statement) {
+      found->second = reachedUnwritten(program_.body, *flow_, [&](const ir::ProgramStatement& statement) {
         if (statement.blockDelete != 0) return false;
         if (const auto* store = std::get_if<ir::Store>(&statement.node))
           return wholeOf(store->number) == number;
@@ -165,6 +166,7 @@ private:
   AnyVariable& any_;
   const ProgramContext& context_;
   ir::ProgramStatement* statement_ = nullptr;
+  std::optional<ir::ProgramFlow> flow_; // of the body, once it is asked for
   std::map<std::uint32_t, std::vector<bool>> unwritten_;
   bool told_ = false;
 };

@@ -9,10 +9,11 @@
 
 namespace dotek::backends::fanuc {
 
-// For each statement whether a way leads to it on which none that `writes` came before.
+// For each statement whether a way leads to it on which none that `writes` came before. `flow`: of the list.
 template <class Statement, class Writes>
-std::vector<bool> reachedUnwritten(const std::vector<Statement>& list, const Writes& writes) {
-  const ir::ProgramFlow flow = ir::flowOf(list);
+std::vector<bool> reachedUnwritten(const std::vector<Statement>& list, const ir::ProgramFlow& flow,
+                                   const Writes& writes) {
+  bool computed = false; // a computed jump was reached
   std::vector<bool> reached(list.size(), false);
   std::vector<std::size_t> open;
   const auto reach = [&](std::size_t at) {
@@ -27,7 +28,8 @@ std::vector<bool> reachedUnwritten(const std::vector<Statement>& list, const Wri
     if (writes(list[at])) continue;
     for (const std::size_t next : flow.next[at])
       reach(next);
-    if (!ir::isComputedJump(list[at])) continue;
+    if (computed || !ir::isComputedJump(list[at])) continue;
+    computed = true;
     for (const std::size_t next : flow.labels)
       reach(next);
   }

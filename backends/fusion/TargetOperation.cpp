@@ -270,12 +270,12 @@ void OperationDemands::runBeside(const TargetCase& now, TargetRun& out) {
       if (property == input.properties.end() || !now.questions->prints(field.name, {value})) continue;
       property->second = inJob(value);
       const fusion::RunResult result = fragment_.run(input);
-      if (result.ok() && result.text == right_)
-        out.differs(
-            verify::Aspect::Printed,
-            fmt::format("{} as `{}` instead of {}: the post prints other digits, and the fragment the "
-                        "same",
-                        numberText(value), field.name, numberText(drawn->second)));
+      if (!result.ok() || result.text != right_ || losesDigits(result)) continue;
+      out.differs(
+          verify::Aspect::Printed,
+          fmt::format("{} as `{}` instead of {}: the post prints other digits, and the fragment the same",
+                      fixedText(value, field.decimals), field.name,
+                      fixedText(drawn->second, field.decimals)));
     }
   }
 }
