@@ -114,6 +114,41 @@ std::string cycleBefore(const Typing& typing) {
   return out;
 }
 
+// Words at the place of the argument that is being written, where its command knows them; empty: any value.
+std::vector<Proposal> argumentWords(const Typing& typing) {
+  std::vector<Proposal> out;
+  std::string line = upperCase(typing.before);
+  if (const std::size_t then = line.rfind(" THEN "); then != std::string::npos) line.erase(0, then + 6);
+  std::size_t begin = 0, end = 0;
+  while (begin < line.size() && (line[begin] == ' ' || line[begin] == '\t'))
+    ++begin;
+  for (end = begin; end < line.size() && (isLetter(line[end]) || line[end] == '_'); ++end) {
+  }
+  if (end == line.size()) return out;
+  std::size_t index = 0;
+  int depth = 0;
+  bool quoted = false;
+  for (const char c : line.substr(end)) {
+    if (c == '"') quoted = !quoted;
+    if (quoted) continue;
+    depth += c == '(' ? 1 : c == ')' ? -1 : 0;
+    if (c == ',' && depth == 0) ++index;
+  }
+  if (quoted) return out;
+  const stdlib::GibbsKeywords& keywords = typing.session.gibbsKeywords();
+  std::set<std::string> known;
+  for (const stdlib::CommandSignature* one : keywords.commands(line.substr(begin, end - begin))) {
+    if (index >= one->arguments.size()) continue;
+    const stdlib::ArgumentSpec& argument = one->arguments[index];
+    for (const std::string& word : argument.keywords)
+      if (known.insert(word).second) out.push_back({word, "", "", kValue});
+    if (argument.kind != stdlib::ArgumentSpec::Kind::Parameter) continue;
+    for (const stdlib::ListedWord& word : stdlib::parametersOf(keywords, argument.family))
+      if (known.insert(word.name).second) out.push_back({word.name, word.detail, "", kValue});
+  }
+  return out;
+}
+
 } // namespace
 
 std::vector<Proposal> completeCycle(const Typing& typing) {
@@ -234,7 +269,8 @@ std::vector<Proposal> completePost(const Typing& typing) {
 }
 
 std::vector<Proposal> completeGibbs(const Typing& typing) {
-  std::vector<Proposal> out;
+  std::vector<Proposal> out = argumentWords(typing);
+  if (!out.empty()) return out;
   std::vector<Proposal> fields;
   fieldsOf(typing.workspace, fs::path(typing.document.path).parent_path().generic_string(), fields);
   addNew(out, std::move(fields));

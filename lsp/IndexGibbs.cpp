@@ -1,5 +1,6 @@
 // GibbsCAM macros, dialogs and DefineData.txt: variables, labels, macros that are called. Names of one folder
 // are one scope, compared without case.
+#include "frontend/gibbs/Match.h"
 #include "frontend/gibbs/Parse.h"
 #include "frontend/gibbs/Walk.h"
 #include "lsp/Index.h"
@@ -20,8 +21,9 @@ namespace {
 
 class Indexer {
 public:
-  Indexer(Index& index, const stdlib::GibbsKeywords& keywords, const std::string& path)
-      : index_(index), keywords_(keywords),
+  Indexer(Index& index, const stdlib::GibbsKeywords& keywords, const SourceMap& sources,
+          const std::string& path)
+      : index_(index), keywords_(keywords), sources_(sources),
         folder_(std::filesystem::path(path).parent_path().generic_string()) {}
 
   void macro(const gibbs::Macro& macro) {
@@ -133,7 +135,7 @@ private:
       for (const gibbs::VariableRef& name : declared->names)
         add(name.name, Role::Definition);
     else if (const auto* command = std::get_if<gibbs::Command>(&statement.node)) {
-      signatures(*command);
+      this->command(*command);
       if (gibbs::foldCase(command->name.text) == "DIALOG" && command->arguments.size() == 1)
         if (const auto* text = std::get_if<gibbs::TextLiteral>(&command->arguments.front()->node))
           file(text->text, command->arguments.front()->range, ".DLG");
@@ -144,7 +146,45 @@ private:
         file(text->text, call->macroRange, ".MAC");
     } else if (const auto* include = std::get_if<gibbs::Include>(&statement.node))
       file(include->file, include->fileRange, ".MAC");
-    gibbs::ownExpressions(statement, [&](const gibbs::Expression& one) { expression(one, {}); });
+    if (!std::holds_alternative<gibbs::Command>(statement.node))
+      gibbs::ownExpressions(statement, [&](const gibbs::Expression& one) { expression(one, {}); });
+  }
+
+  // A command fills some variables; a word at the place of a parameter is none.
+  void command(const gibbs::Command& command) {
+    signatures(command);
+    using Kind = stdlib::ArgumentSpec::Kind;
+    const gibbs::Match match =
+        gibbs::matchArguments(keywords_.commands(command.name.text), command.arguments, keywords_, sources_);
+    for (std::size_t i = 0; i < command.arguments.size(); ++i) {
+      if (command.arguments[i] == nullptr) continue;
+      const gibbs::Expression& argument = *command.arguments[i];
+      const stdlib::ArgumentSpec* const spec = i < match.specs.size() ? match.specs[i] : nullptr;
+      const auto* const reference = std::get_if<gibbs::VariableRef>(&argument.node);
+      if (spec != nullptr && reference != nullptr && !match.signature->unsure) {
+        if (spec->kind == Kind::Choice) continue;
+        if (spec->kind == Kind::Parameter) {
+          parameter(*reference, spec->family);
+          continue;
+        }
+        if (spec->kind == Kind::Result || spec->kind == Kind::ReadWrite) {
+          add(reference->name, Role::Write);
+          expression(argument, reference->name.range);
+          continue;
+        }
+      }
+      expression(argument, {});
+    }
+  }
+
+  void parameter(const gibbs::VariableRef& word, const std::string& family) {
+    const auto kind = keywords_.parameterKind(family, word.name.text);
+    if (!kind) return;
+    const auto host = keywords_.hostInput(family, word.name.text);
+    index_.facts.push_back(
+        {word.name.range, fmt::format("**{}** parameter of `{}`: {}{}", index_.utf8(word.name.text), family,
+                                      stdlib::textOf(*kind),
+                                      host ? fmt::format("; `--host {}=VALUE` stands for it", *host) : "")});
   }
 
   void signatures(const gibbs::Command& command) {
@@ -189,6 +229,7 @@ private:
 
   Index& index_;
   const stdlib::GibbsKeywords& keywords_;
+  const SourceMap& sources_;
   std::string folder_;
 };
 
@@ -197,7 +238,7 @@ private:
 void indexGibbs(Index& index, project::Session& session, const std::string& path) {
   Diagnostics unheard;
   const gibbs::ParseContext context{session.sources(), session.gibbsKeywords(), session.limits(), unheard};
-  Indexer indexer(index, session.gibbsKeywords(), path);
+  Indexer indexer(index, session.gibbsKeywords(), session.sources(), path);
   switch (*index.kind) {
   case project::InputKind::Dialog: indexer.dialog(gibbs::parseDialog(index.file, context)); break;
   case project::InputKind::DefineData:

@@ -187,12 +187,26 @@ std::uint32_t placeOf(const Workspace& workspace, const Index& index, const Json
 
 namespace {
 
+// Where a variable that nothing declares gets its first value, and the line that gives it.
+std::string firstValue(const Occurrence& one, const std::vector<Use>& uses) {
+  for (const Use& use : uses) {
+    if (use.occurrence->role != Role::Write) continue;
+    const SourceFile& file = use.index->text();
+    const std::uint32_t line = file.lineOf(use.occurrence->range.begin);
+    return fmt::format("**{}** first set in line {} of {}:\n\n    {}", one.key.substr(6), line,
+                       folderName(file.name()), use.index->utf8(file.line(line)));
+  }
+  return "";
+}
+
 // What is known of a name elsewhere: at its declaration in another file, or the comment of a program.
-Fact factElsewhere(Workspace& workspace, const Place& place) {
+// `alone`: nothing else is known of it.
+Fact factElsewhere(Workspace& workspace, const Place& place, bool alone) {
   const Occurrence* const one = place.index->at(place.offset);
   if (one == nullptr) return {};
   Fact out{one->range, ""};
-  for (const Use& use : usesOf(workspace, *place.document, *one)) {
+  const std::vector<Use> uses = usesOf(workspace, *place.document, *one);
+  for (const Use& use : uses) {
     if (use.occurrence->role == Role::Read) continue;
     const std::string file = folderName(use.index->text().name());
     if (one->key.starts_with("O ")) {
@@ -210,6 +224,7 @@ Fact factElsewhere(Workspace& workspace, const Place& place) {
         break;
       }
   }
+  if (out.text.empty() && alone && one->key.starts_with("field ")) out.text = firstValue(*one, uses);
   return out;
 }
 
@@ -237,7 +252,7 @@ Json hover(Workspace& workspace, const Json& params) {
   const Occurrence* const named = place.index->at(place.offset);
   Fact elsewhere;
   if (best == nullptr || (named != nullptr && named->key.starts_with("field ")))
-    elsewhere = factElsewhere(workspace, place);
+    elsewhere = factElsewhere(workspace, place, best == nullptr);
   if (!elsewhere.text.empty()) best = &elsewhere;
   if (best != nullptr) {
     text = best->text + (text.empty() ? "" : "\n\n---\n\n" + text);

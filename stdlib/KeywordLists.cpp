@@ -63,6 +63,30 @@ std::vector<ListedWord> TableStore::listOf(const GibbsKeywords& keywords) {
   return out;
 }
 
+std::vector<ListedWord> TableStore::parametersOf(const GibbsKeywords& keywords, std::string_view family) {
+  std::vector<ListedWord> out;
+  const auto found = keywords.tables_->families.find(upperCase(family));
+  if (found == keywords.tables_->families.end()) return out;
+  for (const auto& [name, kind] : found->second.parameters)
+    out.push_back({name, std::string(textOf(kind)), ListedWord::Kind::Keyword, false});
+  sortByName(out);
+  return out;
+}
+
+std::string_view textOf(ParameterKind kind) {
+  switch (kind) {
+  case ParameterKind::Number: return "number";
+  case ParameterKind::Text: return "text";
+  case ParameterKind::Mixed: return "number or text";
+  case ParameterKind::Keyword: break;
+  }
+  return "word without a value";
+}
+
+std::vector<ListedWord> parametersOf(const GibbsKeywords& keywords, std::string_view family) {
+  return TableStore::parametersOf(keywords, family);
+}
+
 std::vector<ListedWord> listOf(const ComPostKeywords& keywords) {
   return TableStore::listOf(keywords);
 }

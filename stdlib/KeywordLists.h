@@ -5,6 +5,7 @@
 #include "stdlib/GibbsKeywords.h"
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace dotek::stdlib {
@@ -23,5 +24,9 @@ std::string textOf(const CommandSignature& signature);
 // By name.
 std::vector<ListedWord> listOf(const ComPostKeywords& keywords);
 std::vector<ListedWord> listOf(const GibbsKeywords& keywords);
+// Parameters of a family ("tool_data"), each with what it holds; empty: no such family.
+std::vector<ListedWord> parametersOf(const GibbsKeywords& keywords, std::string_view family);
+// "number", "text", ..
+std::string_view textOf(ParameterKind kind);
 
 } // namespace dotek::stdlib

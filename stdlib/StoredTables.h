@@ -49,6 +49,7 @@ struct TableStore {
   static MacroSet readMacroSet(const DataFile& file);
   static std::vector<ListedWord> listOf(const ComPostKeywords& keywords);
   static std::vector<ListedWord> listOf(const GibbsKeywords& keywords);
+  static std::vector<ListedWord> parametersOf(const GibbsKeywords& keywords, std::string_view family);
   static Control readControl(const DataFiles& files, const DataFile& file);
 };
 

@@ -35,6 +35,19 @@ std::string code(std::string_view text) {
   return fence + (most > 0 ? " " + line + " " : line) + fence;
 }
 
+// A message: what it has between two backticks stays a span of code.
+std::string message(std::string_view text) {
+  std::string out;
+  while (!text.empty()) {
+    const std::size_t open = text.find('`');
+    const std::size_t close = open == std::string_view::npos ? open : text.find('`', open + 1);
+    if (close == std::string_view::npos || close == open + 1) return out + plain(text);
+    out += plain(text.substr(0, open)) + code(text.substr(open + 1, close - open - 1));
+    text.remove_prefix(close + 1);
+  }
+  return out;
+}
+
 // A block of code whatever it holds: indented.
 std::string block(const VerifyDocument::Excerpt& excerpt) {
   std::string out;
@@ -105,7 +118,7 @@ std::string markdownOf(const VerifyDocument& d) {
       }
       out += fmt::format("- {}{}: {} [{}]\n",
                          one.line == 0 ? "" : fmt::format("{}:{}: ", plain(one.file), one.line), one.severity,
-                         plain(one.message), one.code);
+                         message(one.message), one.code);
     }
   };
   findings("form", "What the form assumes");

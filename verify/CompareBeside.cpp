@@ -133,6 +133,15 @@ void compareDeeds(const ComparedPair& pair) {
       pair.add(Aspect::State, sidesText(one, other), here, there);
       return;
     }
+    // A stop by an M code has no number.
+    if (both && a[i].kind == Deed::Kind::Stop && a[i].value != 0 && b[i].value != 0 &&
+        a[i].value != b[i].value) {
+      pair.add(Aspect::State,
+               fmt::format("{} with the number {} against {}", one, numberText(a[i].value),
+                           numberText(b[i].value)),
+               here, there);
+      return;
+    }
     if (a[i].measures != b[i].measures) {
       pair.add(Aspect::State,
                fmt::format("{} after {} measures against {}", one, a[i].measures, b[i].measures), here,

@@ -56,9 +56,17 @@ double spread(double least, double most, Random& random) {
 }
 
 // How likely a field keeps its first value: the more attempts were in vain, the nearer to what the programmer
-// tried himself. Every other attempt stays free: the first values need not be legal.
-double keeps(std::uint32_t attempt) {
-  return attempt % 2 != 0 ? 0.08 : attempt < 8 ? 0.08 : attempt < 32 ? 0.2 : attempt < 128 ? 0.4 : 0.7;
+// tried himself. Every other attempt stays free: the first values need not be legal. Of many fields as many
+// change as of few: each that changes may meet a check that rejects it, and all have to pass.
+double keeps(std::uint32_t attempt, std::size_t fields) {
+  constexpr double kChanged = 24;
+  const double most = 1 - kChanged / static_cast<double>(std::max<std::size_t>(fields, 1));
+  const double vain = attempt % 2 != 0 ? 0.08
+                      : attempt < 8    ? 0.08
+                      : attempt < 32   ? 0.2
+                      : attempt < 128  ? 0.4
+                                       : 0.7;
+  return std::max(vain, most);
 }
 
 bool isWhole(double value) {
@@ -187,7 +195,7 @@ double Draws::value(std::size_t index, bool near, std::uint32_t attempt, Random&
   if (!field.choices.empty()) return field.choices[random.below(field.choices.size())];
   // Under 0 no tool has its length.
   const bool usable = field.kind != Kind::ToolOffset || field.initial.value_or(0) >= 1;
-  if (field.initial && random.chance(keeps(attempt)) && usable)
+  if (field.initial && random.chance(keeps(attempt, fields_.size())) && usable)
     return rounded(std::min(*field.initial, field.most), field.decimals);
   if (field.usual && random.chance(0.8)) {
     constexpr double kBeside = 0.5;

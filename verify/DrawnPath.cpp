@@ -186,7 +186,10 @@ DrawnPath drawnPath(const std::vector<PathMove>& path, const Point3& start, doub
 }
 
 std::string whyNoWay(const DrawnPath& path) {
-  if (path.touches.empty()) return "the path shows no touch";
+  if (path.touches.empty())
+    return "the path shows no touch; draw the move to each surface and the one back in ToolPath.mac: the "
+           "part is "
+           "made from them";
   double highest = path.points[1].z;
   for (std::size_t n = 2; n < path.points.size(); ++n)
     highest = std::max(highest, path.points[n].z);

@@ -119,7 +119,7 @@ struct Deed {
   enum class Kind : std::uint8_t {
     ToolChange, // M6: `value` is the tool that T has named
     Auxiliary,  // M `value`: the spindle is oriented (M19), an optional stop
-    Stop,       // the operator reads `text`
+    Stop,       // the operator reads `text`; `value`: n of #3006=n, 0 where there is none
     Dwell,      // seconds
   };
   Kind kind = Kind::Auxiliary;

@@ -40,7 +40,7 @@ public:
     mark(Mark::Kind::Stop, text);
     note(Deed::Kind::Stop, 0, text);
   }
-  void messaged(std::string_view text) override { note(Deed::Kind::Stop, 0, text); }
+  void messaged(double number, std::string_view text) override { note(Deed::Kind::Stop, number, text); }
   void toolChanged(std::uint32_t number) override { note(Deed::Kind::ToolChange, number); }
   void auxiliary(std::uint32_t code) override { note(Deed::Kind::Auxiliary, code); }
   void dwelled(double seconds) override { note(Deed::Kind::Dwell, seconds); }

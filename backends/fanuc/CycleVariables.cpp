@@ -199,6 +199,7 @@ void refuseDataInput(State& state, const ir::OpaqueBlock& block, SourceRange ran
 
 void translateVariables(State& state) {
   Variables(state).run();
+  translateExtendedSystem(state);
 }
 
 std::string copiedText(State& state, const ir::OpaqueBlock& block, const ir::Origin& origin) {
@@ -220,9 +221,12 @@ std::string copiedText(State& state, const ir::OpaqueBlock& block, const ir::Ori
       const auto* here = tenths < 0 ? nullptr : from.find(given.address, static_cast<std::uint32_t>(tenths));
       const auto* there =
           tenths < 0 ? nullptr : state.control.find(given.address, static_cast<std::uint32_t>(tenths));
-      const bool known = here != nullptr && there != nullptr && here->function == there->function &&
+      const bool translated = state.extendedTranslated && there != nullptr &&
+                              there->function == stdlib::Function::ExtendedWorkSystem;
+      const bool known =
+          translated || (here != nullptr && there != nullptr && here->function == there->function &&
                          here->function != stdlib::Function::Other &&
-                         (offset || here->function != stdlib::Function::DataInput); // its words differ
+                         (offset || here->function != stdlib::Function::DataInput)); // its words differ
       if (!known && foreign.empty()) {
         foreign = std::string(1, given.address) + (number == nullptr ? ".." : numberText(*number));
         unlisted = here == nullptr && number != nullptr;

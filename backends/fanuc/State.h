@@ -131,8 +131,10 @@ struct State {
   std::set<ir::VariableId> late;
   std::vector<std::set<ir::VariableId>> notAsked;
   std::set<ir::VariableId> toAsk;
-  bool shiftOfZ = false;      // an offset of Z is written
-  bool writesOffset = false;  // some offset is, by the program itself
+  bool shiftOfZ = false;     // an offset of Z is written
+  bool writesOffset = false; // some offset is, by the program itself
+  // Copied blocks select work systems beyond G59 by the code of the control that is written.
+  bool extendedTranslated = false;
   std::size_t waited = 0;     // size of `sheet` where the axes are waited for
   const Body* body = nullptr; // facts of the body while it is written, else null
   std::size_t at = 0;         // index of the statement of the body that is being written
@@ -207,6 +209,13 @@ std::size_t writeBlock(State& state, const std::vector<ir::CycleStatement>& list
 
 // Machine variables of the source become those of the control that mean the same; refused where none does.
 void translateVariables(State& state);
+// ---- ExtendedSystem.cpp ----
+
+// In copied blocks the source's code for a work system beyond G59 becomes that of the control.
+void translateExtendedSystem(State& state);
+
+// ---- CycleVariables.cpp ----
+
 // A copied block. For another control than the source's: where both know its codes by one meaning; else
 // refused, "".
 std::string copiedText(State& state, const ir::OpaqueBlock& block, const ir::Origin& origin);

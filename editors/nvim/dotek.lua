@@ -39,7 +39,8 @@ local function show(result)
     vim.api.nvim_win_set_buf(window, buffer)
   end
   vim.bo[buffer].modifiable = true
-  vim.api.nvim_buf_set_lines(buffer, 0, -1, false, vim.split(result.text, "\r?\n"))
+  local text = result.text:gsub("\r?\n$", "")
+  vim.api.nvim_buf_set_lines(buffer, 0, -1, false, vim.split(text, "\r?\n"))
   vim.bo[buffer].modifiable = false
   vim.bo[buffer].bufhidden = "wipe"
   vim.bo[buffer].filetype = result.language == "markdown" and "markdown" or ""
@@ -132,7 +133,13 @@ end
 local function explain(code)
   local client = client_of(vim.api.nvim_get_current_buf())
   if client then
-    request(client, "workspace/executeCommand", { command = "dotek.explain", arguments = { code } }, 0, show)
+    request(client, "workspace/executeCommand", { command = "dotek.explain", arguments = { code } }, 0, function(result)
+      if result.status == 0 then
+        show(result)
+      else
+        told(result)
+      end
+    end)
   end
 end
 

@@ -10,6 +10,14 @@
 namespace dotek::frontend::nc {
 namespace {
 
+// G65 or G66, by which every control of the tables calls a macro.
+bool callsMacro(const Block& block) {
+  return std::any_of(block.words.begin(), block.words.end(), [](const Word& word) {
+    const auto* const number = word.value == nullptr ? nullptr : std::get_if<Number>(&word.value->node);
+    return word.address == 'G' && number != nullptr && (number->value == 65 || number->value == 66);
+  });
+}
+
 // Statements of a macro program that are no words. Longer ones before those that begin like them.
 constexpr std::array<std::string_view, 11> kStatements = {"IF",    "GOTO",  "WHILE", "DO",    "END",  "THEN",
                                                           "POPEN", "PCLOS", "DPRNT", "BPRNT", "SETVN"};
@@ -212,6 +220,12 @@ bool BlockParser::addressesOnce(const Block& block) {
   std::array<const Word*, 26> seen{};
   for (const Word& word : block.words) {
     const Word*& before = seen[static_cast<std::size_t>(word.address - 'A')];
+    const bool point = word.address >= 'I' && word.address <= 'K';
+    if (before != nullptr && point && callsMacro(block)) {
+      diagnostics_.report<diag::ArgumentsRepeated>(word.range, word.address)
+          .note(before->range, "the first is here");
+      return false;
+    }
     if (before != nullptr && word.address != 'G' && word.address != 'M') {
       diagnostics_.report<diag::AddressTwice>(word.range, word.address)
           .note(before->range, "the first is here");

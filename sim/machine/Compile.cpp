@@ -313,8 +313,8 @@ void Compiler::operator()(const ir::Raise& raise) {
 }
 
 void Compiler::operator()(const ir::Notice& notice) {
-  operand(notice.number); // what it computes may raise an alarm
-  emit(Op::Notice, 0, text(notice.text));
+  const std::uint32_t number = operand(notice.number); // what it computes may raise an alarm
+  emit(Op::Notice, number, text(notice.text));
 }
 
 void Compiler::operator()(const ir::Port& port) {

@@ -390,8 +390,8 @@ bool Machine::raise(std::uint32_t n, std::string_view text) {
   return false;
 }
 
-void Machine::message(std::string_view text) {
-  if (watcher_ != nullptr) watcher_->messaged(text);
+void Machine::message(double number, std::string_view text) {
+  if (watcher_ != nullptr) watcher_->messaged(number, text);
   if (trace_ != nullptr) trace_->begin("message").text(text).end();
 }
 

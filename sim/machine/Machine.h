@@ -289,7 +289,7 @@ public:
   // ---- ends
   bool raise(stdlib::Alarm alarm, char letter = 0);                             // false
   bool raise(std::uint32_t n, std::string_view text);                           // #3000 = n (text); false
-  void message(std::string_view text);                                          // #3006
+  void message(double number, std::string_view text);                           // #3006
   bool finish() { return stop(Ending::TextEnd); }                               // false
   bool overLimit(std::string what);                                             // false
   bool inconclusive(std::string why, char letter = 0, std::uint32_t which = 0); // false

@@ -40,9 +40,10 @@ public:
   virtual ~MotionWatcher() = default;
   virtual void moved(const MachineMotion& motion) = 0;
   virtual void probeSwitched(bool /*on*/) {}
-  virtual void positionSet() {}                       // G92: the machine is still, its coordinates change
-  virtual void paused(std::string_view /*text*/) {}   // a stop, and what the operator reads
-  virtual void messaged(std::string_view /*text*/) {} // #3006: a stop, which a program of macro B asks for
+  virtual void positionSet() {}                     // G92: the machine is still, its coordinates change
+  virtual void paused(std::string_view /*text*/) {} // a stop, and what the operator reads
+  // #3006 = number (text): a stop, which a program of macro B asks for. 0: the number is not known.
+  virtual void messaged(double /*number*/, std::string_view /*text*/) {}
   // A file that the control writes: where the machine is, or a value.
   virtual void recorded(std::string_view /*file*/, std::optional<double> /*value*/) {}
   // A program reads where the machine is or its last block has ended; `skip`: where the last skip move has.

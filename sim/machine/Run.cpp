@@ -470,7 +470,8 @@ template <bool kDecimal8, bool kWatched> bool Run::execute() {
     case Op::Raise: leave(); return raise(number(at->a), code_.texts[at->b]);
     case Op::Notice:
       leave();
-      machine_.message(code_.texts[at->b]);
+      machine_.message(isNull(cells[at->a]) || isUnknown(cells[at->a]) ? 0 : cells[at->a],
+                       code_.texts[at->b]);
       if (listener_ != nullptr) listener_->message(code_.texts[at->b]);
       break;
     case Op::OpenPort:

@@ -127,6 +127,23 @@ TEST_CASE("fanuc copied: groups that a bare code puts back are kept") {
   CHECK(extended.codes().empty());
 }
 
+TEST_CASE("fanuc copied: a further work system has another code on the Haas") {
+  const auto emitted = [](const Lines& blocks) {
+    Maker cycle;
+    for (const std::string& block : blocks)
+      cycle.add(copied(block));
+    Target target("inspection-plus", "haas-ngc");
+    return target.emit(cycle.cycle);
+  };
+  const Emission out = emitted({"G54.1 P2"});
+  CHECK(out.codes().empty());
+  CHECK(out.has("G154 P2"));
+  CHECK_FALSE(out.holds("G54.1"));
+  CHECK(emitted({"G54.1 P21"}).codes().contains("opaque-block-refused")); // by variable it has 20
+  CHECK(emitted({"G154 P2"}).codes().contains("opaque-block-refused"));
+  CHECK(emitted({"G54.1 P2", "G154 P2"}).codes().contains("opaque-block-refused"));
+}
+
 TEST_CASE("fanuc copied: an auxiliary code leaves the probe where it is") {
   const auto emitted = [](const char* block) {
     Maker cycle;

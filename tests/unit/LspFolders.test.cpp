@@ -120,6 +120,29 @@ TEST_CASE("lsp: fields of DefineData, words of dialogs and macros") {
   CHECK(post.size() > 25);
 }
 
+TEST_CASE("lsp: what commands read and fill") {
+  const TestFolder folder("lsp-commands");
+  folder.write("side/DefineData.txt", "X = 10\n");
+  folder.write("side/CycleData.dlg", "");
+  const std::string text = "get_op_data CALLBACK_OP, TOOL_NUM, t\nget_tool_data t, mtool_radius, ball\n"
+                           "if X < ball then message \"too near\"\nget_tool_data t, \n";
+  const std::string macro = folder.write("side/CycleData.mac", text);
+  Client client;
+  client.open(macro, text);
+  CHECK(hover(client, macro, 1, 20).find("**mtool_radius** parameter of `tool_data`: number") !=
+        std::string::npos);
+  CHECK(hover(client, macro, 1, 20).find("--host tool_radius=VALUE") != std::string::npos);
+  CHECK(hover(client, macro, 2, 8).find("first set in line 2 of CycleData.mac:\n\n    get_tool_data t") !=
+        std::string::npos);
+  const Json definition = client.result("textDocument/definition", at(macro, 2, 8));
+  REQUIRE(definition.size() == 1);
+  CHECK(definition[0]["range"]["start"]["line"] == 1);
+  const auto words = client.labels(macro, 3, 17);
+  CHECK(has(words, "MTOOL_RADIUS"));
+  CHECK_FALSE(has(words, "if"));
+  CHECK(has(client.labels(macro, 3, 14), "X"));
+}
+
 TEST_CASE("lsp: programs of the folder are completed, found and explained") {
   const TestFolder folder("lsp-own");
   const std::string called =

@@ -183,6 +183,7 @@ TEST_CASE("words and an assignment exclude each other, an address appears once")
   CHECK(parsed("G0 #1=5") == "refused: [mixed-block]");
   CHECK(parsed("#1=5 G0") == "refused: [mixed-block]");
   CHECK(parsed("G0 X1. Y2. X3.") == "refused: [address-twice]");
+  CHECK(parsed("G65 P9820 Z0 I10. J5. I20.") == "refused: [arguments-repeated]");
   CHECK(pointed("G0 X1. Y2. X3.") == "X3.");
   CHECK(parsed("G0 G90 M5 M9") == "G0 G90 M5 M9");
   CHECK(parsed("N10 N20 G0") == "refused: [syntax-error]");

@@ -255,7 +255,8 @@ TEST_CASE("verify: tools, M codes, stops and dwells count, where and in which or
   CHECK(differing("M19\n", "\n") == state);
   CHECK(differing("#3006=1(LOOK)\n", "\n") == state);
   CHECK(differing("#3006=1(LOOK)\n", "#3006=1(GO ON)\n") == state);
-  CHECK(differing("#3006=1(LOOK)\n", "#3006=2(LOOK)\n").empty());          // a number of its own
+  CHECK(differing("#3006=1(LOOK)\n", "#3006=2(LOOK)\n") == state);
+  CHECK(differing("M0\n", "#3006=1(STOP)\n").empty());                     // M0 has none
   const std::string longStop = "#3006=1(SIDE FAR OFF, G56 NOT CHANGED)\n"; // is cut after 26 at most
   CHECK(differing(longStop, "#3006=1(SIDE FAR OFF, G56 NOT)\n").empty());
   CHECK(differing(longStop, "#3006=1(SIDE FAR OFF, G56)\n") == state);

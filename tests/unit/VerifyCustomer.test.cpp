@@ -272,6 +272,7 @@ TEST_CASE("verify: the document says what the form only assumes and what the tra
   const std::string markdown = report(targets::ReportFormat::Markdown);
   CHECK(markdown.find("\n## What the form assumes\n") != std::string::npos);
   CHECK(markdown.find("\n## What the translation changes or leaves open\n") != std::string::npos);
+  CHECK(markdown.find("the alarm says `") != std::string::npos); // a name stays code
   // A text that was edited by hand is none that convert speaks of.
   options.translation = folder.write("mine.nc", "(MINE)\n" + driver::convert([&] {
                                                                driver::ConvertOptions convert;

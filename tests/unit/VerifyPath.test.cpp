@@ -289,5 +289,7 @@ TEST_CASE("ways that do not reach: each has its reason") {
   REQUIRE(early);
   CHECK(verify::whyNotReached(low, *early, drawnProbe(kRadius), 11.1) == "move 1 touches where it begins");
   CHECK(verify::whyNotReached(drawn({alongZ(-5), alongZ(-9)}), *elsewhere, drawnProbe(kRadius)) ==
-        "the path shows no touch");
+        "the path shows no touch; draw the move to each surface and the one back in ToolPath.mac: the part "
+        "is made "
+        "from them");
 }
