@@ -317,6 +317,12 @@ void takeDefaultsOfProject(Arguments& arguments) {
   if (arguments.command == Command::Init) return;
   if (inputs.empty()) inputs = {"."}; // `list forms`
   project::FlagDefaults defaults = project::flagDefaultsOf(inputs);
+  if (arguments.command == Command::Lint) // of several shops below one folder
+    for (const std::string& input : inputs)
+      if (std::error_code error; std::filesystem::is_directory(input, error))
+        for (std::string& one : project::dataBelow(input))
+          if (std::find(defaults.data.begin(), defaults.data.end(), one) == defaults.data.end())
+            defaults.data.push_back(std::move(one));
   std::vector<std::string>& given = arguments.common.data;
   std::erase_if(defaults.data, [&](const std::string& one) {
     return std::any_of(given.begin(), given.end(),

@@ -2,6 +2,7 @@
 
 #include "frontend/nc/Findings.h"
 #include "support/messages/ComPost.h"
+#include "support/messages/Common.h"
 #include "support/messages/Gibbs.h"
 #include "support/messages/Nc.h"
 
@@ -14,7 +15,7 @@ namespace {
 
 // What else a lowering refuses depends on the target, on values that nobody has given yet, or is a rule of
 // lint.
-constexpr std::array<std::string_view, 17> kCertain = {
+constexpr std::array<std::string_view, 19> kCertain = {
     // macros of a cycle
     diag::DivisionByZero::code,
     diag::DomainError::code,
@@ -34,6 +35,8 @@ constexpr std::array<std::string_view, 17> kCertain = {
     diag::MixedBlock::code,
     diag::TwoFunctions::code,
     diag::DwellForm::code,
+    diag::UnexpectedCharacter::code,
+    diag::LoopUnbalanced::code,
     frontend::nc::CallWithoutProgram::code,
 };
 
@@ -42,8 +45,13 @@ constexpr std::array<std::string_view, 5> kOfForm = {
     diag::PicturePrefixUnverified::code, diag::FormatOfCommand::code,
 };
 
-// In the CAM such a macro may be right; there is no target that it can become.
-constexpr std::array<std::string_view, 2> kOfConvert = {diag::CamValue::code, diag::ReadBeforeSet::code};
+// In the CAM such a macro may be right, or what surrounds the branch in a program makes it so; there is no
+// target that it can become.
+constexpr std::array<std::string_view, 5> kOfConvert = {
+    diag::CamValue::code,        diag::ReadBeforeSet::code,
+    diag::JumpOutOfBranch::code, diag::CallUnderIncremental::code,
+    diag::ModeNotKnown::code,
+};
 
 template <class Codes> bool isIn(std::string_view code, const Codes& codes) {
   return std::find(codes.begin(), codes.end(), code) != codes.end();

@@ -241,6 +241,29 @@ FlagDefaults flagDefaultsOf(const std::vector<std::string>& inputs) {
   return out;
 }
 
+std::vector<std::string> dataBelow(const std::string& folder) {
+  constexpr int kDeepest = 6;
+  constexpr std::size_t kMostEntries = 50000;
+  std::vector<std::string> holders, out;
+  std::error_code error;
+  std::size_t seen = 0;
+  fs::recursive_directory_iterator at(folder, fs::directory_options::skip_permission_denied, error), end;
+  for (; !error && at != end && ++seen < kMostEntries; at.increment(error)) {
+    const std::string name = at->path().filename().generic_string();
+    std::error_code unknown;
+    if (at->is_directory(unknown)) {
+      if (name.starts_with('.') || at.depth() >= kDeepest) at.disable_recursion_pending();
+    } else if (name == "dotek.toml") {
+      holders.push_back(at->path().generic_string());
+    }
+  }
+  std::sort(holders.begin(), holders.end());
+  for (const std::string& holder : holders)
+    for (std::string& one : flagDefaultsOf({holder}).data)
+      if (std::find(out.begin(), out.end(), one) == out.end()) out.push_back(std::move(one));
+  return out;
+}
+
 std::string controlOf(const std::vector<std::string>& inputs, Session& session) {
   std::string out;
   for (std::size_t i = 0; i < inputs.size(); ++i) {

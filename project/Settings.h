@@ -63,6 +63,10 @@ struct FlagDefaults {
 // Nothing is reported: whoever takes the settings does.
 FlagDefaults flagDefaultsOf(const std::vector<std::string>& inputs);
 
+// Data files that each dotek.toml below `folder` names, paths seen from here, each once; hidden folders
+// aside.
+std::vector<std::string> dataBelow(const std::string& folder);
+
 // The control that the dotek.toml of the inputs names for all of them; "": none. Two that differ are an error
 // that names both.
 std::string controlOf(const std::vector<std::string>& inputs, Session& session);

@@ -112,6 +112,7 @@ struct MacroArgument {
   bool selector = false; // chooses, does not measure: its digits are no length
   bool point = true;     // written with a decimal point
   bool required = false;
+  bool positive = false; // the macro takes values above 0 alone; a clearance below 0 is an island elsewhere
   SystemCode systemCode = SystemCode::GNumber;
   SystemRule systemRule = SystemRule::Nominal;
   // Of an Index: numbers beside 1 to 6 that stand for G54.1 P1 and following; 0: none.

@@ -284,6 +284,7 @@ private:
     out.selector = facts.selector;
     out.point = !facts.selector;
     out.required = table.value("required").flag();
+    out.positive = table.value("positive").flag();
     out.unknown = table.value("unknown").text();
     if (facts.axis == AxisUse::Needed || (facts.axis == AxisUse::Possible && table.has("axis")))
       out.axis = static_cast<ir::Axis>(

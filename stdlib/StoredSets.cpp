@@ -8,10 +8,10 @@
 namespace dotek::stdlib {
 
 template <class Archive> void fields(Archive& archive, MacroArgument& it) {
-  auto& [letter, role, axis, frame, kind, selector, point, required, systemCode, systemRule, extendedFirst,
-         extendedLast, unknown] = it;
-  archive(letter, role, axis, frame, kind, selector, point, required, systemCode, systemRule, extendedFirst,
-          extendedLast, unknown);
+  auto& [letter, role, axis, frame, kind, selector, point, required, positive, systemCode, systemRule,
+         extendedFirst, extendedLast, unknown] = it;
+  archive(letter, role, axis, frame, kind, selector, point, required, positive, systemCode, systemRule,
+          extendedFirst, extendedLast, unknown);
 }
 template <class Archive> void fields(Archive& archive, MacroResult& it) {
   auto& [output, name, variable, documented, taken] = it;

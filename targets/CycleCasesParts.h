@@ -47,7 +47,7 @@ public:
   bool takesNoOffset(const std::string& name, double value) override;
   Ran from(const verify::Entry& entry) override;
   Ran disturbed(const verify::Interference& interference) override;
-  void elsewhere(const verify::PartError& more, double grown,
+  void elsewhere(const verify::PartError& more, const Growth& grown,
                  const std::function<void(const verify::Record&, sim::World&)>& look) override;
   bool moves(const std::string& field) override;
   bool rejectsSome(const std::string& name) override;

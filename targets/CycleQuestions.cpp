@@ -167,12 +167,13 @@ SourceQuestions::Ran CaseRunner::Questions::disturbed(const verify::Interference
   return out;
 }
 
-void CaseRunner::Questions::elsewhere(const verify::PartError& more, double grown,
+void CaseRunner::Questions::elsewhere(const verify::PartError& more, const Growth& grown,
                                       const std::function<void(const verify::Record&, sim::World&)>& look) {
   if (!values_.posted || !values_.path || values_.path->touches.empty() || runner_.plan_.part) return;
   std::vector<verify::Touch> touches = values_.path->nominal();
-  for (verify::Touch& touch : touches)
-    touch.point = touch.point + touch.direction * grown;
+  for (std::size_t i = 0; i < touches.size(); ++i)
+    if (!grown.touch || *grown.touch == i)
+      touches[i].point = touches[i].point + touches[i].direction * grown.by;
   verify::PartError error = values_.drawn.error;
   error.shift = error.shift + more.shift;
   error.turn += more.turn;

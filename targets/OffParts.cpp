@@ -101,7 +101,7 @@ public:
     return known->second;
   }
   void look(long steps, const std::function<void(const verify::Record&, sim::World&)>& shown) {
-    questions_.elsewhere(more_, millimetres(steps), shown);
+    questions_.elsewhere(more_, {millimetres(steps)}, shown);
   }
   bool sameWayAt(long one, long other) {
     return at(one) && at(other) && verify::sameWay(*at(one), *at(other));
@@ -160,6 +160,39 @@ std::vector<verify::Difference> compareTurns(const TargetCase& now, bool exact, 
   return found;
 }
 
+// Touches of the path that are all of a measurement, by number; none where measurements and path do not
+// correspond.
+std::vector<std::size_t> singleTouches(const verify::Record& source) {
+  std::vector<std::size_t> out;
+  std::size_t touches = 0;
+  for (const verify::Measure& measure : source.measures) {
+    if (measure.nominal.size() <= 1) out.push_back(touches);
+    touches += std::max<std::size_t>(measure.nominal.size(), 1);
+  }
+  return out;
+}
+
+// One surface off and the others not: what a program compares between two touches.
+std::vector<verify::Difference> compareApart(const TargetCase& now, const Compare& compare) {
+  // mm; on no limit that somebody would give
+  constexpr double kApart[] = {0.3171, -1.0433};
+  constexpr std::size_t kMostTouches = 6;
+  std::vector<verify::Difference> found;
+  const std::vector<std::size_t> touches = singleTouches(*now.source);
+  if (touches.size() < 2 || touches.size() > kMostTouches) return found;
+  for (const std::size_t touch : touches)
+    for (const double by : kApart) {
+      now.questions->elsewhere({}, {by, touch}, [&](const verify::Record& meant, sim::World& world) {
+        if (counts(meant)) found = compare(meant, world);
+      });
+      for (verify::Difference& one : found)
+        one.text = fmt::format("with the surface of touch {} {} mm farther: {}", touch + 1, numberText(by),
+                               one.text);
+      if (!found.empty()) return found;
+    }
+  return found;
+}
+
 } // namespace
 
 std::vector<verify::Difference> compareOffParts(const TargetCase& now, const OffRules& rules,
@@ -177,7 +210,7 @@ std::vector<verify::Difference> compareOffParts(const TargetCase& now, const Off
     verify::PartError more;
     more.shift.x = std::get<1>(off);
     more.turn = std::get<2>(off);
-    now.questions->elsewhere(more, std::get<0>(off), [&](const verify::Record& meant, sim::World& world) {
+    now.questions->elsewhere(more, {std::get<0>(off)}, [&](const verify::Record& meant, sim::World& world) {
       if (!counts(meant)) return;
       if (std::get<0>(off) > kMost && meant.ending != verify::Ending::Finished) return;
       found = compare(meant, world);
@@ -187,7 +220,8 @@ std::vector<verify::Difference> compareOffParts(const TargetCase& now, const Off
     if (!found.empty()) return found;
   }
   if (!compares) return found;
-  found = compareTurns(now, false, compare);
+  found = compareApart(now, compare);
+  if (found.empty()) found = compareTurns(now, false, compare);
   if (found.empty() && rules.exact) found = compareTurns(now, true, compare);
   return found;
 }

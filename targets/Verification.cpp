@@ -3,7 +3,7 @@
 namespace dotek::targets {
 
 // The part of a cycle file is its rehearsal's.
-void SourceQuestions::elsewhere(const verify::PartError&, double,
+void SourceQuestions::elsewhere(const verify::PartError&, const Growth&,
                                 const std::function<void(const verify::Record&, sim::World&)>&) {}
 
 const verify::Record& usualRun(const TargetCase& now, const verify::Entry& other,

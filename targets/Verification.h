@@ -56,9 +56,15 @@ public:
   virtual bool moves(const std::string& field) = 0;
   // With some value of the field or the host input the dialog rejects the others.
   virtual bool rejectsSome(const std::string& name) = 0;
-  // The values of the case where the part is off by `more` besides, and each surface lies `grown` mm farther
-  // along its touch; `look` gets the run and its part, unless there is none.
-  virtual void elsewhere(const verify::PartError& more, double grown,
+  // How much farther along its touch a surface lies, mm.
+  struct Growth {
+    double by = 0;
+    std::optional<std::size_t> touch =
+        std::nullopt; // that surface alone, in the order of the path; else each
+  };
+  // The values of the case where the part is off by `more` besides, and surfaces lie farther; `look` gets the
+  // run and its part, unless there is none.
+  virtual void elsewhere(const verify::PartError& more, const Growth& grown,
                          const std::function<void(const verify::Record&, sim::World&)>& look);
   // The source itself says what it does without the argument, and the cases leave it out.
   virtual bool maySkip(const std::string& name) = 0;

@@ -8,7 +8,9 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <optional>
 #include <set>
+#include <utility>
 
 namespace dotek::verify {
 
@@ -168,6 +170,30 @@ void compareFaults(const ComparedPair& pair) {
            lastMeasure(pair.source), where);
 }
 
+namespace {
+
+// Of a tool's offset: whether it is the geometry, and its number.
+std::optional<std::pair<bool, std::uint32_t>> toolOffsetOf(const stdlib::Control& control,
+                                                           std::uint32_t variable) {
+  const stdlib::SystemVariables& v = control.variables;
+  for (const auto& [base, geometry] : {std::pair(v.toolGeometry, true), std::pair(v.toolGeometryToo, true),
+                                       std::pair(v.toolWear, false), std::pair(v.toolWearToo, false)})
+    if (base && variable > static_cast<std::uint32_t>(*base) &&
+        variable <= static_cast<std::uint32_t>(*base + v.toolCount))
+      return std::pair(geometry, variable - static_cast<std::uint32_t>(*base));
+  return std::nullopt;
+}
+
+// One thing in both: its variable may have another number on the other control.
+bool isSameVariable(const CompareRules& rules, std::uint32_t source, std::uint32_t target) {
+  if (source == target) return true;
+  if (rules.sourceControl == nullptr || rules.targetControl == nullptr) return false;
+  const auto one = toolOffsetOf(*rules.sourceControl, source);
+  return one && one == toolOffsetOf(*rules.targetControl, target);
+}
+
+} // namespace
+
 // The control reads ahead: without a block that waits it reads an earlier position, or moves what is still
 // to be moved to.
 void compareEarlyUses(const ComparedPair& pair) {
@@ -175,8 +201,9 @@ void compareEarlyUses(const ComparedPair& pair) {
   for (const EarlyUse& use : pair.target.early) {
     const bool known =
         std::any_of(pair.source.early.begin(), pair.source.early.end(), [&](const EarlyUse& one) {
-          return one.write == use.write && (pair.rules.samePlace ? pair.rules.samePlace(one.range, use.range)
-                                                                 : one.number == use.number);
+          return one.write == use.write &&
+                 (pair.rules.samePlace ? pair.rules.samePlace(one.range, use.range)
+                                       : isSameVariable(pair.rules, one.number, use.number));
         });
     if (known) continue;
     pair.add(use.write ? Aspect::Offset : Aspect::Variable,

@@ -153,6 +153,15 @@ ir::ExpressionPtr valueOf(const stdlib::MacroSignature& signature, const stdlib:
       values.place(ir::Coordinate{given->value, *given->frame, nullptr}, argument.axis, argument.frame));
 }
 
+// A field with a minus before it: where its own value is below 0, no control reads the word.
+bool isNeverAbove(const ir::ExpressionPtr& value) {
+  const ir::ExpressionPtr simple = ir::simplify(value);
+  if (const double* known = ir::constantValue(simple)) return *known <= 0;
+  const auto* const unary = std::get_if<ir::Unary>(&simple->node);
+  return unary != nullptr && unary->op == ir::UnaryOp::Negate &&
+         std::holds_alternative<ir::VariableUse>(unary->operand->node);
+}
+
 template <class Node>
 MacroCall callOf(const stdlib::MacroSignature& signature, const Node& node, const CallValues& values) {
   MacroCall out;
@@ -163,6 +172,7 @@ MacroCall callOf(const stdlib::MacroSignature& signature, const Node& node, cons
       out.endsAtSurface = true;
     ir::ExpressionPtr value = valueOf(signature, argument, node, values);
     out.hasNoWay = out.hasNoWay || (search && value != nullptr && isNoTravel(value));
+    if (argument.positive && value != nullptr && isNeverAbove(value)) out.notAbove = &argument;
     if (value != nullptr)
       out.arguments.push_back({&argument, std::move(value)});
     else if (argument.required)
@@ -281,6 +291,12 @@ MacroCall macroCall(const stdlib::MacroSignature& signature, const ir::CallCycle
 
 MacroCall macroCall(const stdlib::MacroSignature& signature, const ir::Move& move, const CallValues& values) {
   return callOf(signature, move, values);
+}
+
+std::string refusedSign(const MacroCall& call) {
+  if (call.notAbove == nullptr) return "";
+  return fmt::format("`{}` of P{} below 0{}", call.notAbove->letter, call.signature->program,
+                     call.notAbove->role == stdlib::ArgumentRole::Clearance ? ", which is an island" : "");
 }
 
 std::string refusedTogether(const stdlib::MacroSet& macros, const MacroCall& call) {

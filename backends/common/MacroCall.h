@@ -72,7 +72,11 @@ struct MacroCall {
   std::vector<std::string> notTaken = {};                 // parameters that the macro has no letter for
   bool hasNoWay = false;      // the surface is expected where the probe is: which way it lies is not known
   bool endsAtSurface = false; // it searches no farther than to where the surface is expected
+  const stdlib::MacroArgument* notAbove = nullptr; // it takes values above 0, and this one never is
 };
+
+// "`R` below 0 of P8812 (a pocket with an island)"; "": it takes what it is given.
+std::string refusedSign(const MacroCall& call);
 
 // What of MacroCall::hasNoWay a set has no call for.
 inline constexpr std::string_view kNoWay = "a surface where the probe is, as a travel of 0 has no direction";
@@ -90,11 +94,13 @@ std::optional<ir::Axis> axisNotTaken(const stdlib::MacroSignature& signature, co
 // "`S` and `H` of P9811 together": letters of the call that the macro refuses together; "": none.
 std::string refusedTogether(const stdlib::MacroSet& macros, const MacroCall& call);
 
-// Reports the first argument that the call lacks, that it has no way, or letters that exclude each other.
-// `state` has refuse<Id>(range, arguments...).
+// Reports the first argument that the call lacks, that it has no way, a sign that it does not take, or
+// letters that exclude each other. `state` has refuse<Id>(range, arguments...).
 template <class State>
 void refuseMissing(State& state, const stdlib::MacroSet& macros, const MacroCall& call, SourceRange range) {
   if (call.hasNoWay) state.template refuse<diag::MacroSetCannot>(range, macros.title, kNoWay);
+  if (const std::string sign = refusedSign(call); !sign.empty())
+    state.template refuse<diag::MacroSetCannot>(range, macros.title, sign);
   if (const std::string together = refusedTogether(macros, call); !together.empty())
     state.template refuse<diag::MacroSetCannot>(range, macros.title, together);
   if (call.missing.empty()) return;

@@ -132,6 +132,64 @@ ir::ExpressionPtr expectedOf(State& state, const ir::CycleStatement& measured, s
   return axis ? workPosition(state, *axis) : nullptr;
 }
 
+bool measures(const ir::CycleStatement& statement) {
+  return match(
+      statement, [](const ir::OneOf<ir::Measure, ir::CallCycle> auto&) { return true; },
+      [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Move, ir::ProbePower, ir::Comment,
+                         ir::Assign, ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop,
+                         ir::Alarm, ir::OpaqueBlock> auto&) { return false; });
+}
+
+// The measurements that are the last one on some way to the statement; none where there is a way without one.
+std::vector<const ir::CycleStatement*> lastOnWays(const ir::Cycle& cycle, std::size_t to) {
+  std::vector<std::vector<std::size_t>> before(cycle.body.size() + 1);
+  const auto next = ir::successors(cycle.body);
+  for (std::size_t i = 0; i < next.size(); ++i)
+    for (const std::size_t at : next[i])
+      before[at].push_back(i);
+  std::vector<const ir::CycleStatement*> out;
+  std::vector<bool> seen(before.size());
+  std::vector<std::size_t> open = {to};
+  while (!open.empty()) {
+    const std::size_t at = open.back();
+    open.pop_back();
+    if (at == 0) return {};
+    for (const std::size_t from : before[at]) {
+      if (seen[from]) continue;
+      seen[from] = true;
+      if (measures(cycle.body[from]))
+        out.push_back(&cycle.body[from]);
+      else
+        open.push_back(from);
+    }
+  }
+  return out;
+}
+
+// Each of the measurements keeps the result in one local, where they leave it in several variables.
+void planMerged(State& state, Body& body, std::size_t at, const std::set<ir::ResultName>& names) {
+  if (state.cycle.body.size() > kMostStatements) return;
+  for (const ir::ResultName name : names) {
+    if (common(state.macros, name)) continue;
+    const std::vector<const ir::CycleStatement*> measured = lastOnWays(state.cycle, at);
+    std::set<std::uint32_t> locals;
+    bool known = !measured.empty();
+    for (const ir::CycleStatement* one : measured) {
+      const auto* signature = signatureOf(state.macros, *one);
+      known = known && signature != nullptr && resultAfter(*signature, *one, name).result != nullptr;
+      if (const auto kept = body.kept.find({one, name}); kept != body.kept.end()) locals.insert(kept->second);
+    }
+    if (!known || locals.size() > 1) continue; // reported where it is read
+    const std::uint32_t local = locals.empty() ? state.pool.take() : *locals.begin();
+    if (local == 0)
+      state.refuse<diag::TooManyLocals>(state.cycle.body[at].origin.range(), ir::resultTitle(name),
+                                        state.control.locals);
+    for (const ir::CycleStatement* one : measured)
+      body.kept[{one, name}] = local;
+    body.merged[{at, name}] = local;
+  }
+}
+
 } // namespace
 
 void planResults(State& state, Body& body) {
@@ -139,12 +197,15 @@ void planResults(State& state, Body& body) {
   const Between between(state);
   for (std::size_t i = 0; i < list.size(); ++i) {
     const ir::CycleStatement* last = body.last[i];
-    if (last == nullptr) continue;
     std::set<ir::ResultName> names;
     ir::eachNode(list[i], [&](const ir::Expression& node) {
       if (const auto* result = std::get_if<ir::MeasuredResult>(&node.node)) names.insert(result->name);
     });
     if (names.empty()) continue;
+    if (last == nullptr) {
+      planMerged(state, body, i, names);
+      continue;
+    }
     const bool lost = between.overwritten(static_cast<std::size_t>(last - list.data()), i);
     for (const ir::ResultName name : names) {
       if (!lost && !isComputed(state, *last, name)) continue;
@@ -174,7 +235,11 @@ std::optional<std::uint32_t> variableOf(State& state, ir::ResultName name, const
   }
   // Of a measurement that was refused nothing more is said.
   const bool refused = measure != nullptr && state.failed && signatureOf(state.macros, *measure) == nullptr;
-  if (!refused) state.refuse<diag::ResultUnknown>(range, state.macros.title, ir::resultTitle(name));
+  if (refused) return std::nullopt;
+  if (measure == nullptr)
+    state.refuse<diag::ResultOfSeveral>(range, ir::resultTitle(name), state.macros.title);
+  else
+    state.refuse<diag::ResultUnknown>(range, state.macros.title, ir::resultTitle(name));
   return std::nullopt;
 }
 
@@ -222,6 +287,9 @@ std::string resultText(State& state, ir::ResultName name, SourceRange range) {
   if (measure != nullptr)
     if (const auto kept = state.body->kept.find({measure, name}); kept != state.body->kept.end())
       return "#" + std::to_string(kept->second);
+  if (measure == nullptr && state.body != nullptr)
+    if (const auto merged = state.body->merged.find({state.at, name}); merged != state.body->merged.end())
+      return "#" + std::to_string(merged->second);
   if (state.body == nullptr) {
     state.refuse<diag::ResultUnknown>(range, state.macros.title, ir::resultTitle(name));
     return "#0";

@@ -57,6 +57,8 @@ struct Body {
   std::vector<std::array<bool, 3>> staleStart;
   std::map<std::pair<const ir::CycleStatement*, ir::ResultName>, std::uint32_t>
       kept; // results kept in locals
+  // Results that a statement reads where ways with several measurements meet: each of those keeps it there.
+  std::map<std::pair<std::size_t, ir::ResultName>, std::uint32_t> merged;
 };
 
 // What copied blocks change.

@@ -110,9 +110,10 @@ void FanucVerification::callFromOthers(const TargetCase& now, const verify::Entr
   for (verify::OtherCaller& other : verify::otherCallers(*now.posted, posts, now.entry, now.stream)) {
     const SourceQuestions::Ran meant = now.questions->from(other.entry);
     if (meant.answer != SourceQuestions::Answer::Runs) continue;
-    verify::CompareRules rules = rulesFor(now, meant.record);
-    rules.samePlace = nullptr;
-    if (!verify::runsAlike(usual(other.entry), meant.record, rules)) continue;
+    const verify::CompareRules rules = rulesFor(now, meant.record);
+    verify::CompareRules ofSource = rules;
+    ofSource.samePlace = nullptr;
+    if (!verify::runsAlike(usual(other.entry), meant.record, ofSource)) continue;
     other.entry.blocks = entry.blocks;
     other.entry.variables = entry.variables;
     const verify::Record record = runText(now, other.entry, nullptr);

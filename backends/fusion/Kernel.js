@@ -490,8 +490,12 @@ function dotekRun(input) {
       return global[name].apply(null, list || []);
     }
   }
-  var taken, kept = [], defined = {}, offered = [], scopes = {}, entries, entry;
+  var taken, kept = [], defined = {}, offered = [], scopes = {}, titles = {}, entries, entry;
   for (var name in input.entry === undefined ? {} : properties) {
+    if (typeof properties[name] === "object" && properties[name] !== null &&
+      typeof properties[name].title === "string") {
+      titles[name] = properties[name].title;
+    }
     if (typeof properties[name] === "object" && properties[name] !== null &&
       properties[name].value !== undefined) {
       defined[name] = properties[name].value;
@@ -553,7 +557,7 @@ function dotekRun(input) {
   }
   return {text: dotekState.before.join("") + dotekState.text, errors: dotekState.errors,
     warnings: dotekState.warnings, afterError: dotekState.afterError, taken: taken, kept: kept,
-    defined: defined, offered: offered, scopes: scopes};
+    defined: defined, offered: offered, scopes: scopes, titles: titles};
 }
 
 // ---- what Dotek calls -----------------------------------------------------------------------------------
@@ -619,6 +623,9 @@ function dotekRun(input) {
     }
     for (name in result.scopes) {
       out[out.length] = "s" + name + "=" + result.scopes[name];
+    }
+    for (name in result.titles) {
+      out[out.length] = "n" + name + "=" + result.titles[name];
     }
     for (i = 0; i < result.offered.length; ++i) {
       out[out.length] = "o" + result.offered[i];

@@ -40,6 +40,7 @@ struct RunResult {
   bool taken = false;                // of a fragment: its dispatch says that the operation is its own
   std::map<std::string, std::string> defined; // of a fragment: `value` of each property that has one
   std::map<std::string, std::string> scopes;  // of each of them, "operation"
+  std::map<std::string, std::string> titles;  // of a fragment: `title` of each property, UTF-8
   // Of a fragment: what the list of each such property offers, `id` and `title`.
   std::map<std::string, std::vector<std::pair<std::string, std::string>>> offered;
   std::vector<std::string> kept;      // of a fragment: outputs of the post that were not reset

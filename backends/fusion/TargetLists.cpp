@@ -2,6 +2,7 @@
 
 #include "backends/fusion/Emit.h"
 #include "frontend/gibbs/Ast.h"
+#include "frontend/gibbs/Lower.h"
 #include "support/Decimal.h"
 
 #include <algorithm>
@@ -38,6 +39,32 @@ void compareLists(const std::map<std::string, std::vector<DialogChoice>>& lists,
                                     found->first, value, other->second, choice.title));
       break;
     }
+  }
+}
+
+void compareTitles(const std::vector<verify::DrawField>& fields, const project::CycleFolder& folder,
+                   const SourceMap& sources, const fusion::RunResult& result, const std::string& prefix,
+                   TargetRun& out) {
+  namespace gibbs = frontend::gibbs;
+  if (folder.cycle == nullptr || !out.differences.empty()) return;
+  std::map<std::string, std::string> meanings; // by name of the field, in one case; without one the name
+  for (const ir::Variable& field : gibbs::declareCycle(*folder.cycle, sources).variables)
+    meanings[gibbs::foldCase(field.name)] = field.meaning.empty() ? field.name : field.meaning;
+  for (const verify::DrawField& field : fields) {
+    const std::string own = gibbs::foldCase(field.name);
+    const std::string property = gibbs::foldCase(fusion::propertyOf(prefix, field.name));
+    const auto title = std::find_if(result.titles.begin(), result.titles.end(),
+                                    [&](const auto& one) { return gibbs::foldCase(one.first) == property; });
+    const auto meaning = meanings.find(own);
+    if (title == result.titles.end() || (meaning != meanings.end() && meaning->second == title->second))
+      continue;
+    for (const auto& [name, text] : meanings)
+      if (name != own && text == title->second) {
+        out.differs(verify::Aspect::Variable,
+                    fmt::format("the property of `{}` has the title `{}`, which the dialog gives to `{}`",
+                                field.name, text, name));
+        return;
+      }
   }
 }
 

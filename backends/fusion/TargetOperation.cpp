@@ -55,6 +55,7 @@ void OperationDemands::check(const TargetCase& now, const fusion::RunResult& res
   }
   for (const verify::DrawField& field : from_.plan.fields)
     compareDefinition(field, result, out);
+  compareTitles(from_.plan.fields, from_.folder, from_.session.sources(), result, prefix_, out);
   compareLists(dialogChoices(from_.folder, from_.session.sources()), result, prefix_, out);
 }
 

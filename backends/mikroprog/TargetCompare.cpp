@@ -193,6 +193,7 @@ private:
       return add(Aspect::Contact,
                  fmt::format("{} {} against {} records", wanted, sizes ? "sizes" : "contacts", kept.size()),
                  want.range, parts.touches.front().range);
+    afterDatum(want, parts);
     for (std::size_t i = 0; i < kept.size(); ++i) {
       if (!sizes) {
         if ((kept[i]->at - parts.touches[i].end).length() > facts_.tolerance)
@@ -205,6 +206,17 @@ private:
             fmt::format("a distance of {} between the walls against {}", fixedText(size, 6),
                         fixedText(-2 * kept[i]->value, 6)),
             want.range, kept[i]->range);
+    }
+  }
+
+  // What is recorded at a contact after its datum is what was set, whatever was found.
+  void afterDatum(const Measure& want, const verify::Gathered::Parts& parts) {
+    const Mark* datum = nullptr;
+    for (const Mark& mark : parts.marks) {
+      if (mark.kind == Mark::Kind::Datum) datum = &mark;
+      if (mark.kind == Mark::Kind::Position && datum != nullptr && datum->pieces == mark.pieces)
+        add(Aspect::Contact, "a record after the datum, which always holds the nominal", want.range,
+            mark.range);
     }
   }
 

@@ -4,6 +4,7 @@
 #include "support/messages/Gibbs.h"
 
 #include <algorithm>
+#include <map>
 
 namespace dotek::frontend::gibbs {
 
@@ -33,6 +34,23 @@ std::string meaningOf(const Field& field, std::string meaning, const SourceMap& 
   return meaning.empty() || left.empty() ? left + meaning : left + ", " + meaning;
 }
 
+// Where the dialog says the same at the right of two fields, what it says at the left belongs to the meaning:
+// X and Y of a point.
+void addLeftLabels(ir::Cycle& cycle, const std::vector<Field>& fields, const SourceMap& sources) {
+  std::map<std::string, std::size_t> said;
+  for (const ir::Variable& variable : cycle.variables)
+    ++said[variable.meaning];
+  for (std::size_t i = 0; i < fields.size() && i < cycle.variables.size(); ++i) {
+    ir::Variable& variable = cycle.variables[i];
+    if (variable.meaning.empty() || said[variable.meaning] < 2) continue;
+    const Field& field = fields[i];
+    const std::string left = field.label && field.label->nameRange.hasPlace()
+                                 ? withoutUnit(sources.textUtf8(field.label->nameRange))
+                                 : "";
+    variable.meaning = (left.empty() ? variable.name : left) + ", " + variable.meaning;
+  }
+}
+
 } // namespace
 
 ir::Cycle declareCycle(const Cycle& source, const SourceMap& sources) {
@@ -48,7 +66,8 @@ ir::Cycle declareCycle(const Cycle& source, const SourceMap& sources) {
       break;
     }
   }
-  for (const Field& field : declaredFields(source)) {
+  const std::vector<Field> fields = declaredFields(source);
+  for (const Field& field : fields) {
     ir::Variable parameter;
     parameter.name = field.name.text;
     parameter.role = ir::Role::Parameter;
@@ -62,6 +81,7 @@ ir::Cycle declareCycle(const Cycle& source, const SourceMap& sources) {
     parameter.range = field.name.range;
     cycle.add(std::move(parameter));
   }
+  addLeftLabels(cycle, fields, sources);
   for (const auto* macro :
        {source.toolPath ? &*source.toolPath : nullptr, source.cycleData ? &*source.cycleData : nullptr})
     if (macro != nullptr && !cycle.range.hasPlace()) cycle.range = {macro->file, 0, 0};

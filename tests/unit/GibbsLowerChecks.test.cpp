@@ -65,6 +65,23 @@ TEST_CASE("gibbs lower: a cycle declares its fields with what the dialog says of
   CHECK(project.cycle.variables[3].defaultValue == 7.0);
 }
 
+TEST_CASE("gibbs lower: two fields of which the dialog says the same are told apart by their names there") {
+  LowerProject project("px = 0\npy = 0\nlone = 1", "");
+  project.files["CycleData.dlg"] = "dialog \"Point\", 30, 50, 400, 520\n"
+                                   "label 20, 40, 50, 24, \"X [mm]\"\ninput 80, 40, 70, 24, px, px\n"
+                                   "label 155, 40, 160, 24, \"point on the face\"\n"
+                                   "label 20, 80, 50, 24, \"Y [mm]\"\ninput 80, 80, 70, 24, py, py\n"
+                                   "label 155, 80, 160, 24, \"point on the face\"\n"
+                                   "label 20, 120, 50, 24, \"Z [mm]\"\ninput 80, 120, 70, 24, lone, lone\n"
+                                   "label 155, 120, 160, 24, \"height\"\n"
+                                   "ok 1, 1, 1, 1\ncancel 1, 1, 1, 1\n";
+  project.declare();
+  REQUIRE(project.cycle.variables.size() == 3);
+  CHECK(project.cycle.variables[0].meaning == "X, point on the face");
+  CHECK(project.cycle.variables[1].meaning == "Y, point on the face");
+  CHECK(project.cycle.variables[2].meaning == "height");
+}
+
 TEST_CASE("gibbs lower: checks of the examples agree with the interpreter") {
   for (const char* name : {"surface-x", "surface-y", "surface-z", "corner-xyz", "bore"}) {
     INFO(name);

@@ -281,3 +281,74 @@ TEST_CASE("verify: a difference of an offset names the statements that write it"
     }
   }
 }
+
+TEST_CASE("verify: a comparison of two touches that is gone shows, whatever digits the controls have") {
+  const ProcessFolder folder;
+  folder.write("pad/DefineData.txt", "X2 = 40\nG = 55\nMAXI = 0.1\n");
+  folder.write("pad/CycleData.dlg",
+               "dialog \"Pad\", 60, 60, 470, 230\nlabel 15, 20, 80, 24, \"Second place [mm]\"\n"
+               "input 110, 20, 80, 24, X2, X2\nlabel 15, 55, 80, 24, \"Work offset\"\n"
+               "input 110, 55, 80, 24, G, G\nlabel 15, 90, 80, 24, \"Out of flat [mm]\"\n"
+               "input 110, 90, 80, 24, MAXI, MAXI\nok 220, 180, 90, 28\ncancel 330, 180, 90, 28\n");
+  folder.write(
+      "pad/CycleData.mac",
+      "callback_returncode = 0\n:again\ndialog \"CycleData.dlg\"\nwrong = 0\nif X2 < 10 then wrong = 1\n"
+      "if G < 54 then wrong = 2\nif G > 59 then wrong = 2\nif MAXI < 0.02 then wrong = 3\n"
+      "if MAXI > 0.2 then wrong = 3\nif wrong > 0 then goto again\n");
+  folder.write(
+      "pad/ToolPath.mac",
+      "callback_returncode = 0\nget_custom_drill_cycle_data x, ox\nget_custom_drill_cycle_data y, oy\n"
+      "get_custom_drill_cycle_data retract_plane, oz\n"
+      "add_custom_drill_cycle_path feed, -ox, -oy, 5-oz\nadd_custom_drill_cycle_path feed_z, -oz\n"
+      "add_custom_drill_cycle_path feed_z, 5-oz\nadd_custom_drill_cycle_path feed_x, X2-ox\n"
+      "add_custom_drill_cycle_path feed_z, -oz\nadd_custom_drill_cycle_path feed_z, 5-oz\n");
+  folder.write(
+      "post.txt",
+      "#1 = '####.##;0'\nFORMAT(OpFieldData#,1)\n\nprobe:\nIF CycleType?('pad')\n SeqC SpinOff EOL\n"
+      " SeqC CoolOff EOL\n SeqC ' M31' EOL\n SeqC ' G65 P9770' ZCP1 ' F3000.' EOL\n"
+      " SeqC ' G65 P9770 X0. Y0. F3000.' EOL\n SeqC ' G65 P9770 Z5. F500.' EOL\n"
+      " SeqC ' G65 P9023 Z-5. K0. S'OpFieldData#('G') EOL\n SeqC ' #551=#138' EOL\n"
+      " SeqC ' G65 P9770 X'OpFieldData#('X2')' F3000.' EOL\n"
+      " SeqC ' G65 P9023 Z-5. K0. S'OpFieldData#('G') EOL\n"
+      " SeqC ' IF[ABS[#551-#138]LT'OpFieldData#('MAXI')']GOTO40' EOL\n SeqC ' #3000=5(NOT FLAT)' EOL\n"
+      " 'N40 G65 P9770' ZCP1 ' F3000.' EOL\n SeqC ' M32' EOL\nEND\nRETURN\n");
+  checkDamages(folder, "pad --prog post.txt",
+               " --to fanuc --control fanuc-31i-b --probe-on M31 --probe-off M32", "nc",
+               {{"/^IF.*NOT FLAT/d", "with the surface of touch 1"},
+                {"s/ABS\\[#551-#138\\]/[#551-#138]/", "farther"}});
+}
+
+TEST_CASE("convert: a result that several ways lead to is kept on each of them") {
+  const ProcessFolder folder;
+  const std::string x = "OpFieldData#('X')";
+  const std::string touch = "G65 P9023 X'" + x + "' I'OpFieldData#('I')' S'OpFieldData#('G') EOL\n";
+  folder.write(
+      "own.txt",
+      "#1 = '####.##;0'\nFORMAT(OpFieldData#,1)\n\nprobe:\nIF CycleType?('surface-x')\n SeqC SpinOff EOL\n"
+      " SeqC CoolOff EOL\n SeqC ' M31' EOL\n SeqC ' G65 P9770' ZCP1 ' F3000.' EOL\n"
+      " SeqC ' G65 P9770 Z'OpFieldData#('Z')' F500.' EOL\n SeqC ' IF['" +
+          x + "'LT0]GOTO20' EOL\n SeqC ' " + touch + " SeqC ' GOTO30' EOL\n 'N20 " + touch +
+          " 'N30 #550=#138' EOL\n SeqC ' G65 P9770' ZCP1 ' F3000.' EOL\n SeqC ' M32' EOL\nEND\nRETURN\n");
+  const std::string flags =
+      cycle() + " --prog own.txt --to fanuc --control fanuc-0i-md --probe-macros inspection-plus";
+  const ShellResult written = folder.run("dotek convert " + flags);
+  CHECK_MESSAGE(written.out.find("=#135\n") != std::string::npos, written.out << written.err);
+  const ShellResult verified = folder.run("dotek verify " + flags + " --cases 40");
+  CHECK_MESSAGE(verified.status == 0, verified.out << verified.err);
+}
+
+TEST_CASE("convert: a pocket with an island is refused for macros that measure webs alone") {
+  const ProcessFolder folder;
+  const auto converted = [&](const std::string& sign) {
+    folder.write("own.txt", postWith(" SeqC ' G65 P9812 X'OpFieldData#('X')' Z'OpFieldData#('Z')' R" + sign +
+                                     "'OpFieldData#('R') EOL\n"));
+    return folder.run("dotek convert " + cycle() +
+                      " --prog own.txt --to fanuc --probe-macros dotek --probe-on M31 --probe-off M32");
+  };
+  CHECK(converted("").out.find("G65 P8812 X#24 Z#26 R#18") != std::string::npos);
+  const ShellResult island = converted("-");
+  CHECK(island.status == 1);
+  CHECK_MESSAGE(island.err.find("has no call for `R` of P8812 below 0, which is an island") !=
+                    std::string::npos,
+                island.err);
+}

@@ -217,6 +217,8 @@ TEST_CASE("verify sees what a fragment owes its post") {
       {"values.push(", "", "", "does not offer `surfaceX`"},
       {"scope: \"operation\"", "operation", "post", "has the scope `post`"},
       {"var IText", "####.##", "####.#", "the post prints other digits"},
+      {"title: \"Depth of the touch", "Depth of the touch", "Height to retract to",
+       "has the title `Height to retract to`, which the dialog gives to `R`"},
   };
   for (const Damage& damage : damages) {
     CAPTURE(damage.part);

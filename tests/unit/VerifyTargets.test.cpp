@@ -163,6 +163,21 @@ TEST_CASE("a damaged program of Mikroprog never agrees") {
   }
 }
 
+TEST_CASE("verify: a record of Mikroprog after its datum holds what was set, not what was found") {
+  const std::string good = converted("mikroprog");
+  const std::string kRecord = "M25 @SURFACEX.SOU", kDatum = "G92 X-3";
+  const std::size_t record = good.find(kRecord), datum = good.find(kDatum);
+  REQUIRE(record < datum);
+  REQUIRE(datum != std::string::npos);
+  std::string turned = good;
+  turned.replace(datum, kDatum.size(), kRecord);
+  turned.replace(record, kRecord.size(), kDatum);
+  const driver::Outcome outcome = verified("mikroprog", turned);
+  CHECK(outcome.status == 1);
+  const std::string said = renderText(outcome.diagnostics, outcome.sources, 0);
+  CHECK_MESSAGE(said.find("a record after the datum") != std::string::npos, said);
+}
+
 TEST_CASE("verify: a program of Mikroprog asks, switches off and goes to its start before it moves") {
   const std::string good = converted("mikroprog");
   const std::string beginning =
