@@ -83,9 +83,7 @@ void FanucVerification::callWithout(const OutputArgument& argument, const Target
       differs(who, "an alarm has to stop it before anything moves", record, out);
     return;
   }
-  // Its places are those of another posted text.
-  verify::CompareRules rules = rulesFor(now, meant.record);
-  rules.samePlace = nullptr;
+  const verify::CompareRules rules = rulesElsewhere(now, meant.record);
   std::vector<verify::Difference> found = verify::compare(meant.record, record, rules);
   for (verify::Difference& one : found)
     one.text =
@@ -260,8 +258,7 @@ void FanucVerification::callWithActive(const verify::DrawField& field, char lett
   other.variables.emplace_back(local, value);
   const verify::Record record = runText(now, other, nullptr);
   if (record.ending == verify::Ending::Alarm && translation_.madeUp(text_.line(record.endedAt))) return;
-  verify::CompareRules rules = rulesFor(now, meant.record);
-  rules.samePlace = nullptr;
+  const verify::CompareRules rules = rulesElsewhere(now, meant.record);
   std::vector<verify::Difference> found = verify::compare(meant.record, record, rules);
   const std::string who = fmt::format("with {} {}, the system in force", letter, numberText(value));
   for (verify::Difference& one : found)

@@ -42,6 +42,8 @@ private:
   // It goes back to its caller and leaves him what he had in force.
   void compareReturn(const verify::Record& record, const verify::Record* source, TargetRun& out) const;
   verify::CompareRules rulesFor(const TargetCase& now, const verify::Record& source) const;
+  // Of a run of the source with other values: its places are those of another posted text.
+  verify::CompareRules rulesElsewhere(const TargetCase& now, const verify::Record& source) const;
   void compareRecords(const TargetCase& now, const verify::Record& record, TargetRun& out) const;
 
   // ---- callers who break what it demands

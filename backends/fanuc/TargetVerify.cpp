@@ -233,6 +233,15 @@ verify::CompareRules FanucVerification::rulesFor(const TargetCase& now, const ve
   return rules;
 }
 
+verify::CompareRules FanucVerification::rulesElsewhere(const TargetCase& now,
+                                                       const verify::Record& source) const {
+  verify::CompareRules rules = rulesFor(now, source);
+  rules.samePlace = nullptr;
+  rules.sourceControl = &*from_.inputs.sourceControl;
+  rules.targetControl = control_.name == rules.sourceControl->name ? rules.sourceControl : &control_;
+  return rules;
+}
+
 void FanucVerification::compareRecords(const TargetCase& now, const verify::Record& record,
                                        TargetRun& out) const {
   const verify::Record& source = *now.source;

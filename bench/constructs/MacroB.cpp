@@ -167,7 +167,7 @@ void addMacroB(std::vector<Construct>& out) {
          [](long i) { return fmt::format("G0 X1. (DOTEK: IGNORE JUMP-TO-ITSELF{})\n", i); });
   linted("one misspelling suppressed", 2000,
          [](long n) { return program(times(n, "G0 X1. (DOTEK: IGNORE JUMPTO-ITSELF)\n")); });
-  linted("codes of one suppression", 200, [](long n) {
+  linted("codes of one suppression", 150, [](long n) {
     return program("G0 X1. (DOTEK: IGNORE" + repeated(n, [](long i) { return fmt::format(" CODE-{},", i); }) +
                    ")\n");
   });
