@@ -47,6 +47,7 @@ public:
   bool takesNoOffset(const std::string& name, double value) override;
   Ran from(const verify::Entry& entry) override;
   Ran disturbed(const verify::Interference& interference) override;
+  std::size_t touches() const override { return values_.path ? values_.path->touches.size() : 0; }
   void elsewhere(const verify::PartError& more, const Growth& grown,
                  const std::function<void(const verify::Record&, sim::World&)>& look) override;
   bool moves(const std::string& field) override;

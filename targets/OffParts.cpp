@@ -160,15 +160,16 @@ std::vector<verify::Difference> compareTurns(const TargetCase& now, bool exact, 
   return found;
 }
 
-// Touches of the path that are all of a measurement, by number; none where measurements and path do not
-// correspond.
-std::vector<std::size_t> singleTouches(const verify::Record& source) {
+// Touches of the path that are all of a measurement, by number; none where the source measures more often
+// than the path touches, or less.
+std::vector<std::size_t> singleTouches(const verify::Record& source, std::size_t drawn) {
   std::vector<std::size_t> out;
   std::size_t touches = 0;
   for (const verify::Measure& measure : source.measures) {
     if (measure.nominal.size() <= 1) out.push_back(touches);
     touches += std::max<std::size_t>(measure.nominal.size(), 1);
   }
+  if (touches != drawn) out.clear();
   return out;
 }
 
@@ -178,7 +179,7 @@ std::vector<verify::Difference> compareApart(const TargetCase& now, const Compar
   constexpr double kApart[] = {0.3171, -1.0433};
   constexpr std::size_t kMostTouches = 6;
   std::vector<verify::Difference> found;
-  const std::vector<std::size_t> touches = singleTouches(*now.source);
+  const std::vector<std::size_t> touches = singleTouches(*now.source, now.questions->touches());
   if (touches.size() < 2 || touches.size() > kMostTouches) return found;
   for (const std::size_t touch : touches)
     for (const double by : kApart) {

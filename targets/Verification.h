@@ -56,6 +56,8 @@ public:
   virtual bool moves(const std::string& field) = 0;
   // With some value of the field or the host input the dialog rejects the others.
   virtual bool rejectsSome(const std::string& name) = 0;
+  // How many touches the drawn path has, each a surface of the part; 0: none is drawn.
+  virtual std::size_t touches() const { return 0; }
   // How much farther along its touch a surface lies, mm.
   struct Growth {
     double by = 0;

@@ -75,7 +75,7 @@ struct MacroCall {
   const stdlib::MacroArgument* notAbove = nullptr; // it takes values above 0, and this one never is
 };
 
-// "`R` below 0 of P8812 (a pocket with an island)"; "": it takes what it is given.
+// "`R` of P8812 below 0, which is an island"; "": it takes what it is given.
 std::string refusedSign(const MacroCall& call);
 
 // What of MacroCall::hasNoWay a set has no call for.

@@ -1,4 +1,4 @@
-// Work systems beyond G59 in copied blocks: G54.1 P1 of one control is G154 P1 of another (haas.md, 8).
+// Work systems beyond G59 in copied blocks: G54.1 P1 of one control is G154 P1 of another (haas.md, 7).
 #include "backends/fanuc/State.h"
 #include "support/Decimal.h"
 

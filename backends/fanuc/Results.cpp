@@ -65,8 +65,44 @@ public:
     return false;
   }
 
+  // The measurements that are the last one on some way to the use; none where there is a way without one, or
+  // a copied block may have changed what they leave.
+  std::vector<const ir::CycleStatement*> lastOnWays(std::size_t use) const {
+    std::vector<const ir::CycleStatement*> out;
+    std::vector<bool> seen(before_.size());
+    std::vector<std::size_t> open = {use};
+    while (!open.empty()) {
+      const std::size_t at = open.back();
+      open.pop_back();
+      if (at == 0) return {};
+      for (const std::size_t from : before_[at]) {
+        if (seen[from]) continue;
+        seen[from] = true;
+        const ir::CycleStatement& statement = state_.cycle.body[from];
+        switch (leavesOf(statement)) {
+        case Leaves::Results: out.push_back(&statement); break;
+        case Leaves::Unknown: return {};
+        case Leaves::Them: open.push_back(from); break;
+        }
+      }
+    }
+    return out;
+  }
+
 private:
   using Ways = std::vector<std::vector<std::size_t>>;
+  // What a statement does to the results that it finds: results of its own, what nobody knows, nothing.
+  enum class Leaves : std::uint8_t { Results, Unknown, Them };
+
+  static Leaves leavesOf(const ir::CycleStatement& statement) {
+    return match(
+        statement, [](const ir::Measure&) { return Leaves::Results; },
+        [](const ir::CallCycle& node) { return node.power ? Leaves::Them : Leaves::Results; },
+        [](const ir::OpaqueBlock&) { return Leaves::Unknown; },
+        [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Move, ir::ProbePower, ir::Comment,
+                           ir::Assign, ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop,
+                           ir::Alarm> auto&) { return Leaves::Them; });
+  }
 
   // What is reached from a statement, on no way through `without`.
   static std::vector<bool> around(const Ways& ways, std::size_t from, std::size_t without) {
@@ -132,46 +168,13 @@ ir::ExpressionPtr expectedOf(State& state, const ir::CycleStatement& measured, s
   return axis ? workPosition(state, *axis) : nullptr;
 }
 
-bool measures(const ir::CycleStatement& statement) {
-  return match(
-      statement, [](const ir::OneOf<ir::Measure, ir::CallCycle> auto&) { return true; },
-      [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Move, ir::ProbePower, ir::Comment,
-                         ir::Assign, ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop,
-                         ir::Alarm, ir::OpaqueBlock> auto&) { return false; });
-}
-
-// The measurements that are the last one on some way to the statement; none where there is a way without one.
-std::vector<const ir::CycleStatement*> lastOnWays(const ir::Cycle& cycle, std::size_t to) {
-  std::vector<std::vector<std::size_t>> before(cycle.body.size() + 1);
-  const auto next = ir::successors(cycle.body);
-  for (std::size_t i = 0; i < next.size(); ++i)
-    for (const std::size_t at : next[i])
-      before[at].push_back(i);
-  std::vector<const ir::CycleStatement*> out;
-  std::vector<bool> seen(before.size());
-  std::vector<std::size_t> open = {to};
-  while (!open.empty()) {
-    const std::size_t at = open.back();
-    open.pop_back();
-    if (at == 0) return {};
-    for (const std::size_t from : before[at]) {
-      if (seen[from]) continue;
-      seen[from] = true;
-      if (measures(cycle.body[from]))
-        out.push_back(&cycle.body[from]);
-      else
-        open.push_back(from);
-    }
-  }
-  return out;
-}
-
 // Each of the measurements keeps the result in one local, where they leave it in several variables.
-void planMerged(State& state, Body& body, std::size_t at, const std::set<ir::ResultName>& names) {
+void planMerged(State& state, Body& body, const Between& between, std::size_t at,
+                const std::set<ir::ResultName>& names) {
   if (state.cycle.body.size() > kMostStatements) return;
+  const std::vector<const ir::CycleStatement*> measured = between.lastOnWays(at);
   for (const ir::ResultName name : names) {
     if (common(state.macros, name)) continue;
-    const std::vector<const ir::CycleStatement*> measured = lastOnWays(state.cycle, at);
     std::set<std::uint32_t> locals;
     bool known = !measured.empty();
     for (const ir::CycleStatement* one : measured) {
@@ -203,7 +206,7 @@ void planResults(State& state, Body& body) {
     });
     if (names.empty()) continue;
     if (last == nullptr) {
-      planMerged(state, body, i, names);
+      planMerged(state, body, between, i, names);
       continue;
     }
     const bool lost = between.overwritten(static_cast<std::size_t>(last - list.data()), i);
@@ -235,11 +238,7 @@ std::optional<std::uint32_t> variableOf(State& state, ir::ResultName name, const
   }
   // Of a measurement that was refused nothing more is said.
   const bool refused = measure != nullptr && state.failed && signatureOf(state.macros, *measure) == nullptr;
-  if (refused) return std::nullopt;
-  if (measure == nullptr)
-    state.refuse<diag::ResultOfSeveral>(range, ir::resultTitle(name), state.macros.title);
-  else
-    state.refuse<diag::ResultUnknown>(range, state.macros.title, ir::resultTitle(name));
+  if (!refused) state.refuse<diag::ResultUnknown>(range, state.macros.title, ir::resultTitle(name));
   return std::nullopt;
 }
 

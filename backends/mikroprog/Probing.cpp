@@ -216,6 +216,13 @@ void measure(State& state, const ir::Measure& measure, std::size_t index) {
       state.diagnostics.report<diag::LengthToTip>(range);
       state.remarks.push_back("Z COUNTS TO THE LOWEST POINT OF THE BALL");
     }
+    const double before = (*nominal - *from) * (way < 0 ? -1 : 1);
+    if (measure.target->frame == ir::Frame::Here && before > 0 && before < std::abs(way)) {
+      const std::string letter(1, ir::letterOf(axis));
+      state.diagnostics.report<diag::TravelPastNominal>(range, letter, numberText(*face), letter,
+                                                        numberText(*nominal),
+                                                        numberText(std::abs(way) - before), letter);
+    }
     const double contact = contactAt(state, axis, *nominal, way);
     if (state.options.datum == Datum::SetPosition)
       setPosition(state, axis, contact, *face, *nominal, numberText(*system), origin);

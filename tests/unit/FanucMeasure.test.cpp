@@ -222,6 +222,18 @@ TEST_CASE("fanuc measure: results") {
   }
 }
 
+TEST_CASE("fanuc measure: a result after a copied block is not that of the call before it") {
+  const auto emitted = [](bool block) {
+    Maker cycle;
+    cycle.surface(ir::Axis::X, number(10), number(56), number(0));
+    if (block) cycle.add(ir::OpaqueBlock{{{'M', number(77), {}}}});
+    cycle.add(ir::Store{number(550), ir::result(ir::ResultName::Main)});
+    return Target("inspection-plus").emit(cycle.cycle);
+  };
+  CHECK(emitted(false).has("#550=#135"));
+  CHECK(emitted(true).codes().contains("result-unknown"));
+}
+
 TEST_CASE("fanuc measure: where values may be stored") {
   const auto codes = [](double variable, bool calls) {
     std::set<std::string> out;
