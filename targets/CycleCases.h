@@ -117,6 +117,9 @@ private:
   std::string whyNotMeasured(Values& values);
   TargetRun runTarget(const Values& values, sim::World& world, bool probeOn, const verify::Record* source,
                       ShownRun* shown = nullptr);
+  std::optional<sim::Part> partBeside(const Values& values, const verify::PartError& more,
+                                      const SourceQuestions::Growth& grown) const;
+  bool meetsLimit(const Values& values, bool probeOn);
   void runAtBounds(const verify::Case& drawn, CaseResult& result);
   void addFinding(CaseResult& result, const verify::Difference& difference, const Values& values) const;
   void noteEndless(const verify::Case& drawn);

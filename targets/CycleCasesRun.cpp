@@ -237,6 +237,14 @@ CaseResult CaseRunner::run(const verify::Case& drawn) {
       result.whyAt = {};
       return result;
     }
+    if (!ran.differences.empty() && !values->rejected && meetsLimit(*values, probeOn)) {
+      result.verdict = CaseVerdict::NoProgram;
+      result.ofValues = !drawn.edge;
+      result.trace = std::move(ran.trace);
+      result.why = "the source compares what it measures with a limit that is met to the last digit";
+      result.whyAt = {};
+      return result;
+    }
     takeRun(result, std::move(ran), *values);
     if (drawn.callers && !values->rejected && result.findings.empty() && result.why.empty())
       runAtBounds(drawn, result);

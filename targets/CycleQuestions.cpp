@@ -169,16 +169,8 @@ SourceQuestions::Ran CaseRunner::Questions::disturbed(const verify::Interference
 
 void CaseRunner::Questions::elsewhere(const verify::PartError& more, const Growth& grown,
                                       const std::function<void(const verify::Record&, sim::World&)>& look) {
-  if (!values_.posted || !values_.path || values_.path->touches.empty() || runner_.plan_.part) return;
-  std::vector<verify::Touch> touches = values_.path->nominal();
-  for (std::size_t i = 0; i < touches.size(); ++i)
-    if (!grown.touch || *grown.touch == i)
-      touches[i].point = touches[i].point + touches[i].direction * grown.by;
-  verify::PartError error = values_.drawn.error;
-  error.shift = error.shift + more.shift;
-  error.turn += more.turn;
-  const double radius = values_.drawn.hosts.at("tool_radius");
-  const std::optional<sim::Part> part = verify::partOf(touches, radius, std::max(radius, kReach), error);
+  if (!values_.posted) return;
+  const std::optional<sim::Part> part = runner_.partBeside(values_, more, grown);
   if (!part) return;
   sim::World world(*part, probeFor(runner_.plan_, values_.drawn));
   const verify::Record record = runner_.runPosted(values_, world, probeOn_, verify::Stand::Way::Run);
@@ -225,6 +217,7 @@ verify::Entry CaseRunner::entryOf(const Values& values, bool probeOn) const {
   if (values.posted)
     selectExtended(values.posted->file.programs.front(), *inputs_->sourceControl,
                    target_ == nullptr || !(target_->datumsMovePath() || target_->needsNominal()), out);
+  if (values.path && target_ != nullptr && target_->datumsMovePath()) out.drawn = values.path->nominal();
   for (const auto& [number, value] : variables_)
     out.variables.emplace_back(number, value);
   for (const auto* given : {&values.presets, &values.drawn.variables})

@@ -140,6 +140,8 @@ public:
   Verification& operator=(const Verification&) = delete;
   // Whether it takes only values with which start and travel lead to the coordinate that a surface gets.
   virtual bool needsNominal() const { return false; }
+  // Whether both sides compare what is measured alike to the last digit.
+  virtual bool meetsLimitsAlike() const { return false; }
   // Whether each datum moves the path that follows: it then has to fit the part wherever the datums are.
   virtual bool datumsMovePath() const { return false; }
   // Which values the caller of a cycle gives, after prepare(): what he may leave out as he likes, always or

@@ -74,6 +74,8 @@ struct Measure {
   SourceRange datumRange = {}; // of a bare skip move: the block that set the last of them; none: `range`
   std::optional<sim::Point3> aim = {}; // of a bare skip move: where it ends without contact
   bool travels = false;                // it looks along a travel, which may lead beyond the surface
+  // Of a travel: the surface that Entry::drawn shows on it, as `nominal` counts.
+  std::optional<sim::Point3> drawn = {};
   // Arguments of the call that say neither where a surface is nor what is set: how far it searches, tools,
   // tolerances, what is printed.
   std::map<stdlib::ArgumentRole, double> options = {};

@@ -145,7 +145,8 @@ void Recorder::movePath(const Measure& measure) {
   const double radius = world_.probe().ballRadius();
   for (std::size_t i = call_.moved; i < measure.nominal.size() && i < call_.signals.size(); ++i) {
     const sim::Point3 direction = measure.nominal[i].direction;
-    const sim::Point3 beside = call_.signals[i] + direction * radius - measure.nominal[i].point;
+    const sim::Point3 meant = measure.drawn ? *measure.drawn : measure.nominal[i].point;
+    const sim::Point3 beside = call_.signals[i] + direction * radius - meant;
     const double along[] = {direction.x, direction.y, direction.z}, by[] = {beside.x, beside.y, beside.z};
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (std::abs(std::abs(along[axis]) - 1) > 1e-9) continue;
@@ -157,7 +158,9 @@ void Recorder::movePath(const Measure& measure) {
   for (const auto& [key, zero] : measure.datums) {
     const std::size_t axis = key.second;
     if (touches[axis] == 0 || std::exchange(done[axis], true)) continue;
-    machine_.moveZero(axis, off[axis] / touches[axis]);
+    const double by = off[axis] / touches[axis];
+    machine_.moveZero(axis, by);
+    pathMoved_[axis] += by;
     record_.pathMoved = true;
   }
 }
@@ -297,6 +300,7 @@ void Recorder::callBegins(std::uint32_t program, std::span<const double> locals)
     measure.nominal = nominalTouches(*signature, locals, {at[0], at[1], at[2]}, world_.probe().ballRadius());
     for (Touch& touch : measure.nominal)
       touch.point = touch.point + offset();
+    measure.drawn = drawnOnWay(measure);
   }
   record_.measures.push_back(std::move(measure));
 }

@@ -69,6 +69,8 @@ public:
   // place of its surface, whether the ball gave it or the stem: the path goes on as that of a control which
   // has no other system to set.
   void datumsMovePath() { datumsMovePath_ = true; }
+  // Surfaces for Measure::drawn; before begin().
+  void expectDrawn(const std::vector<Touch>& surfaces) { drawn_ = surfaces; }
   void interfere(const Interference& interference) { interference_ = interference; }
   // Before begin(): variables for Record::strays. Outlive it.
   void watchStores(const std::set<std::uint32_t>& numbers) { watchedStores_ = &numbers; }
@@ -94,6 +96,7 @@ private:
   void mark(Mark::Kind kind, std::string_view text = "", double value = 0);
   void note(Deed::Kind kind, double value, std::string_view text = "");
   void movePath(const Measure& measure);
+  std::optional<sim::Point3> drawnOnWay(const Measure& measure) const;
   void noteDatums(Measure& measure) const;
   void noteSignal(const sim::ProbeEvent& event);
   void disturb(std::size_t pieces);       // how many belong to it and are still to come
@@ -123,6 +126,8 @@ private:
   std::vector<Touch> rehearsed_;
   const sim::BlockSet* watching_ = nullptr;
   bool datumsMovePath_ = false;
+  std::vector<Touch> drawn_;          // expectDrawn()
+  std::array<double, 3> pathMoved_{}; // by datums, mm
   Interference interference_;
   bool positions_ = false;         // the skip move that runs is meant to meet nothing
   std::optional<sim::Point3> aim_; // where it ends without contact

@@ -39,6 +39,30 @@ double Recorder::expectedContact(const sim::Point3& from, const sim::Point3& dir
   return 1;
 }
 
+// The nearest on the line of the travel. The post may print its places with fewer digits than the path has.
+std::optional<sim::Point3> Recorder::drawnOnWay(const Measure& measure) const {
+  constexpr double kPrinted = 0.01; // mm
+  if (!measure.travels || measure.nominal.size() != 1) return std::nullopt;
+  const sim::Point3 moved{pathMoved_[0], pathMoved_[1], pathMoved_[2]};
+  const Touch& end = measure.nominal.front();
+  const double ball = end.direction.z == 0 ? world_.probe().ballRadius() : 0;
+  const sim::Point3 from = measure.start + sim::Point3{0, 0, ball};
+  const double way = (end.point - from).dot(end.direction);
+  std::optional<sim::Point3> out;
+  double nearest = way + kPrinted;
+  for (const Touch& one : drawn_) {
+    const sim::Point3 there = one.point + moved - from;
+    const double along = there.dot(end.direction);
+    const double beside = (there - end.direction * along).length();
+    if (!(one.direction.dot(end.direction) > kSameDirection) || beside > kPrinted || !(along > 0) ||
+        along > nearest)
+      continue;
+    nearest = along;
+    out = one.point + moved;
+  }
+  return out;
+}
+
 std::optional<double> Recorder::contact(const sim::SkipMove& move) {
   const SourceRange here = place();
   positions_ = move.positions ||

@@ -125,6 +125,7 @@ Record Stand::run(const sim::Bytecode& code, sim::World& world, const Entry& ent
   recorder.assumeProbe(entry.probeOn ? Switch::On : Switch::Off);
   if (way == Way::Rehearse) recorder.rehearse(entry.contactShare);
   if (way == Way::MovePath) recorder.datumsMovePath();
+  if (!entry.drawn.empty()) recorder.expectDrawn(entry.drawn);
   recorder.interfere(interference);
   recorder.watchOnly(&watching_);
   recorder.watchStores(watchedStores_);

@@ -48,6 +48,8 @@ struct Entry {
   double contactShare = 1;                                 // of a rehearsal: Recorder::rehearse
   std::uint64_t noiseSeed = 0;                             // of a probe whose signal is noisy
   std::vector<std::pair<std::uint32_t, double>> variables; // set before: locals, commons
+  // Surfaces that the path of the source shows, coordinates of the machine; for Measure::drawn.
+  std::vector<Touch> drawn = {};
 };
 
 class Stand {

@@ -42,6 +42,9 @@ public:
         runner_({source.session.options().scriptProgram, source.session.limits()}) {}
 
   // Macros that correct an offset by measured less expected take no other nominal, and the fragment says so.
+  bool meetsLimitsAlike() const override {
+    return control_.arithmetic == stdlib::Arithmetic::Decimal8 && sourceSet_ == set_;
+  }
   bool needsNominal() const override {
     return set_ != sourceSet_ &&
            from_.plan.translation->text.find(fusion::kMissedNominal) != std::string::npos;
@@ -264,7 +267,7 @@ private:
             },
             control_.arithmetic == stdlib::Arithmetic::Decimal8),
         made->id, out);
-    const bool exact = control_.arithmetic == stdlib::Arithmetic::Decimal8 && sourceSet_ == set_;
+    const bool exact = meetsLimitsAlike();
     add(compareOffParts(now, {rulesFor(now, *now.source).overtravel, exact},
                         [&](const verify::Record& meant, sim::World& world) {
                           return verify::compare(meant, runIn(world, *made, now), rulesFor(now, meant));

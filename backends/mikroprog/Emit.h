@@ -6,7 +6,9 @@
 #include "stdlib/MikroprogControl.h"
 #include "support/Diagnostics.h"
 
+#include <array>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -27,6 +29,14 @@ struct NamedValue {
   std::string from; // "default", "--set", "host input"
 };
 
+// A surface that the path of the source touches along one axis; mm, in the coordinates of the source.
+struct DrawnSurface {
+  ir::Axis axis = ir::Axis::X;
+  bool upward = false;             // the probe moves to greater coordinates
+  double face = 0;                 // coordinate of the surface
+  std::array<double, 3> contact{}; // where the ball is then: its centre in X and Y, its lowest point in Z
+};
+
 struct EmitOptions {
   const stdlib::MikroprogControl& control;
   std::string fileName; // of records, without ending: "SURFACEX"
@@ -36,6 +46,8 @@ struct EmitOptions {
   bool lengthToCentre = false;         // the tool length ends at the ball's centre, else at its lowest point
   std::vector<NamedValue> values;      // of the parameters, for the header
   bool cycleFile = false;              // the source is a file of the cycle language, for messages
+  // Asked at most once; empty: the source draws no path.
+  std::function<std::vector<DrawnSurface>()> drawnSurfaces = {};
 };
 
 // Whether a move or a measurement of the cycle needs an axis Y.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <iterator>
 
 namespace dotek::backends::mikroprog {
 
@@ -22,6 +23,28 @@ double contactAt(const State& state, ir::Axis axis, double face, double way) {
   const double radius = state.host("tool_radius");
   if (axis == ir::Axis::Z && !state.options.lengthToCentre) return way < 0 ? face : sum(face, -2 * radius);
   return sum(face, way < 0 ? radius : -radius);
+}
+
+// Where the path of the source shows the surface that a travel along the axis from `from` to `end` meets;
+// nothing: it shows none there. Of several on one line the nearest is met.
+std::optional<double> drawnFace(State& state, ir::Axis axis, double from, double end) {
+  constexpr double kPrinted = 0.01; // mm: what a post may round a coordinate by
+  if (!state.drawn)
+    state.drawn = state.options.drawnSurfaces ? state.options.drawnSurfaces() : std::vector<DrawnSurface>();
+  const double way = end > from ? 1 : -1;
+  std::optional<double> out;
+  for (const DrawnSurface& one : *state.drawn) {
+    if (one.axis != axis || one.upward != (end > from)) continue;
+    const bool besideLine = std::any_of(std::begin(ir::kAxes), std::end(ir::kAxes), [&](ir::Axis other) {
+      if (other == axis || (other == ir::Axis::Z && state.options.lengthToCentre)) return false;
+      const std::optional<double>& at = state.axes[ir::indexOf(other)].at;
+      return at && std::abs(*at - one.contact[ir::indexOf(other)]) > kPrinted;
+    });
+    const bool onTheWay = (one.face - from) * way > 0 && (end - one.face) * way > -kPrinted;
+    if (besideLine || !onTheWay) continue;
+    if (!out || (*out - one.face) * way > 0) out = one.face;
+  }
+  return out;
 }
 
 // Whether the statements after `index` go on in the direction of `back` at least to `to`, along that axis
@@ -191,10 +214,10 @@ void measure(State& state, const ir::Measure& measure, std::size_t index) {
   }
   if (!checkAxis(state, axis, range)) return;
   const std::optional<double> from = hereOf(state, axis, range);
-  const std::optional<double> face = from ? placeOf(state, *measure.target, axis, range) : std::nullopt;
-  if (!face) return;
+  const std::optional<double> end = from ? placeOf(state, *measure.target, axis, range) : std::nullopt;
+  if (!end) return;
   AxisState& now = state.axes[ir::indexOf(axis)];
-  const double way = *face - *from;
+  const double way = *end - *from;
   if (way == 0) {
     state.refuse<diag::MikroprogCannot>(range, "the travel to the surface is 0",
                                         "it has no direction to search in");
@@ -202,10 +225,14 @@ void measure(State& state, const ir::Measure& measure, std::size_t index) {
   }
   if (!relyOn(state, {20}, "a search along one axis", range)) return;
   if (axis == ir::Axis::Y && !relyOn(state, {22}, "G31 with Y", range)) return;
+  // A travel may lead beyond its surface; a place is that of the surface.
+  const bool travels = measure.target->frame == ir::Frame::Here;
+  const std::optional<double> drawn = travels ? drawnFace(state, axis, *from, *end) : std::nullopt;
+  const double face = drawn.value_or(*end);
   const double over = state.overtravel();
   guard(state, origin);
-  search(state, axis, sum(sum(*face, way < 0 ? -over : over), now.shift), origin,
-         "SURFACE EXPECTED AT " + shownPlace(state, axis, sum(*face, now.shift)));
+  search(state, axis, sum(sum(*end, way < 0 ? -over : over), now.shift), origin,
+         "SURFACE EXPECTED AT " + shownPlace(state, axis, sum(face, now.shift)));
   record(state, origin);
   if (measure.setting) {
     const ir::ExpressionPtr& given = measure.setting->nominal[ir::indexOf(axis)];
@@ -217,15 +244,15 @@ void measure(State& state, const ir::Measure& measure, std::size_t index) {
       state.remarks.push_back("Z COUNTS TO THE LOWEST POINT OF THE BALL");
     }
     const double before = (*nominal - *from) * (way < 0 ? -1 : 1);
-    if (measure.target->frame == ir::Frame::Here && before > 0 && before < std::abs(way)) {
+    if (travels && !drawn && before > 0 && before < std::abs(way)) {
       const std::string letter(1, ir::letterOf(axis));
-      state.diagnostics.report<diag::TravelPastNominal>(range, letter, numberText(*face), letter,
-                                                        numberText(*nominal),
-                                                        numberText(std::abs(way) - before), letter);
+      state.refuse<diag::TravelPastNominal>(range, numberText(std::abs(way) - before), letter,
+                                            numberText(*nominal), letter, numberText(*end));
+      return;
     }
     const double contact = contactAt(state, axis, *nominal, way);
     if (state.options.datum == Datum::SetPosition)
-      setPosition(state, axis, contact, *face, *nominal, numberText(*system), origin);
+      setPosition(state, axis, contact, face, *nominal, numberText(*system), origin);
     else
       askOperator(state, axis, contact, numberText(*system), origin);
   }

@@ -67,6 +67,7 @@ struct State {
   std::set<std::string> remarked;           // what is said once
   std::set<const ir::CycleStatement*> done; // written before their place
   std::optional<double> overtravelGiven;
+  std::optional<std::vector<DrawnSurface>> drawn; // EmitOptions::drawnSurfaces, once it was asked
   bool oneOfSeveral = false; // of the touches of a cycle: each goes back to where the cycle began
   bool failed = false;
 };

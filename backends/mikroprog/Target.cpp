@@ -89,7 +89,8 @@ std::optional<MikroprogProgram> writeMikroprog(const CycleFolder& folder, Lowere
     return std::nullopt;
   }
 
-  mikroprog::EmitOptions emit{writing.control, mikroprog::shortFileName(folder.name), {}, {}, {}, false, {}};
+  mikroprog::EmitOptions emit{
+      writing.control, mikroprog::shortFileName(folder.name), {}, {}, {}, false, {}, {}};
   emit.datum = writing.datum == "operator" ? mikroprog::Datum::Operator : mikroprog::Datum::SetPosition;
   emit.assumed = questionsOf(writing.assume);
   emit.hosts = writing.hosts;
@@ -100,6 +101,10 @@ std::optional<MikroprogProgram> writeMikroprog(const CycleFolder& folder, Lowere
     if (variable.role != ir::Role::Parameter || !lowered.fixed.contains(id)) continue;
     emit.values.push_back({variable.name, lowered.fixed.at(id), writing.fromWhere(variable.name)});
   }
+  std::vector<std::pair<std::string, double>> values;
+  for (const auto& [id, value] : lowered.fixed)
+    values.emplace_back(cycle.variable(id).name, value);
+  emit.drawnSurfaces = [&] { return drawnSurfaces(folder, values, writing.hosts, session); };
   ir::fold(cycle, lowered.fixed, {true, session.limits().steps});
   if (!cycle.checks.empty()) {
     diagnostics.report<diag::ChecksUndecided>(cycle.checks.front().origin.range(), folder.name);

@@ -121,7 +121,8 @@ double mostRaised(const verify::Record& source, const sim::Point3& zero, double 
       if (measure.nominal[i].direction.z > kDown) continue;
       // An edge is met beside the lowest point, which counts all the same.
       const double nominal = measure.contacts[i].centre.z - ballRadius - datum->second;
-      out = std::max(out, nominal - (measure.nominal[i].point.z - zero.z));
+      const double meant = measure.drawn ? measure.drawn->z : measure.nominal[i].point.z;
+      out = std::max(out, nominal - (meant - zero.z));
     }
   }
   return out;

@@ -44,6 +44,12 @@ struct MikroprogWriting {
 std::optional<MikroprogProgram> writeMikroprog(const CycleFolder& folder, LoweredCycle lowered,
                                                const MikroprogWriting& writing, Session& session);
 
+// What the ToolPath.mac of the folder touches for these values of its fields; empty where it draws nothing,
+// or cannot be run. Nothing is reported.
+std::vector<backends::mikroprog::DrawnSurface>
+drawnSurfaces(const CycleFolder& folder, const std::vector<std::pair<std::string, double>>& values,
+              const std::map<std::string, double>& hosts, Session& session);
+
 // A program that is written anew for each case.
 std::unique_ptr<Verification> mikroprogVerification(const VerificationSource& source);
 

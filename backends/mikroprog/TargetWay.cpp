@@ -57,7 +57,8 @@ private:
     const Touch& wall = want_.nominal[i];
     const double radius = wall.direction.z == 0 ? way_.ballRadius : 0;
     const Point3 found = parts_.touches[i].end + wall.direction * radius;
-    return wall.direction * (found - wall.point).dot(wall.direction);
+    const Point3 meant = want_.drawn && i == 0 ? *want_.drawn : wall.point;
+    return wall.direction * (found - meant).dot(wall.direction);
   }
 
   // Of the ball's lowest point, where search `i` begins; the one before it has found its surface.

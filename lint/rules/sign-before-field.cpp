@@ -1,3 +1,4 @@
+#include "lint/LeastValues.h"
 #include "lint/MacroNames.h"
 #include "lint/ProgBlocks.h"
 
@@ -8,47 +9,6 @@
 namespace dotek::lint::rule {
 namespace {
 
-// `if DEPTH < 0 then ..`: the rest of the macro sees no value below 0.
-bool turnsAwayNegative(const gibbs::Comparison& comparison, const std::string& field) {
-  using gibbs::Relation;
-  if (!comparison.nots.empty() || !comparison.left || !comparison.right) return false;
-  const auto is = [&](const gibbs::Expression& side) {
-    const gibbs::Name* name = plainName(side);
-    return name != nullptr && gibbs::foldCase(name->text) == field;
-  };
-  const auto from = [](const gibbs::Expression& side) {
-    const std::optional<double> number = plainNumber(side);
-    return number && *number >= 0;
-  };
-  if (is(*comparison.left) && from(*comparison.right))
-    return comparison.relation == Relation::Less || comparison.relation == Relation::LessEqual;
-  return is(*comparison.right) && from(*comparison.left) &&
-         (comparison.relation == Relation::Greater || comparison.relation == Relation::GreaterEqual);
-}
-
-// What follows a check: an error that is counted, a message, the dialog again.
-bool isRejection(const gibbs::Statement& statement) {
-  return std::holds_alternative<gibbs::Assignment>(statement.node) ||
-         std::holds_alternative<gibbs::Goto>(statement.node) || commandName(statement) == "MESSAGE";
-}
-
-bool isGuarded(const gibbs::Cycle& cycle, const std::string& field) {
-  bool out = false;
-  if (!cycle.cycleData || cycle.cycleData->hasErrorNodes) return false;
-  eachStatement(*cycle.cycleData, [&](const gibbs::Statement& statement) {
-    const auto* branch = std::get_if<gibbs::If>(&statement.node);
-    if (branch == nullptr || !branch->then || !isRejection(*branch->then)) return;
-    // Of several comparisons each alone rejects the value where OR joins them.
-    const auto& all = branch->condition.connectives;
-    if (std::any_of(all.begin(), all.end(),
-                    [](gibbs::Connective one) { return one != gibbs::Connective::Or; }))
-      return;
-    for (const gibbs::Comparison& comparison : branch->condition.comparisons)
-      out = out || turnsAwayNegative(comparison, field);
-  });
-  return out;
-}
-
 // The dialogs of all cycles that this value is printed for keep it from being negative.
 bool isGuarded(const ProgPiece& value, const compost::Program& prog, const Project& project) {
   if (value.field.empty()) return false;
@@ -56,10 +16,13 @@ bool isGuarded(const ProgPiece& value, const compost::Program& prog, const Proje
   for (const Joined& joined : project.joined) {
     if (joined.prog != &prog) continue;
     for (const compost::BranchRef& branch : compost::branchesOf(prog, joined.cycle->name)) {
-      const SourceRange range = branch.branch->range;
+      SourceRange range = branch.branch->range;
+      if (const auto& other = branch.branch->elseRange)
+        (branch.elsePart ? range.begin : range.end) = other->begin;
       if (range.file != value.range.file || value.range.begin < range.begin || value.range.end > range.end)
         continue;
-      if (!isGuarded(*joined.cycle, printedFor(project, fieldsOf(*joined.cycle), value.field))) return false;
+      const std::string field = printedFor(project, fieldsOf(*joined.cycle), value.field);
+      if (!(LeastValues(*joined.cycle, project).of(field) >= 0)) return false;
       any = true;
     }
   }

@@ -85,7 +85,7 @@ void folds(const Case& one) {
   std::mt19937 random(20);
   std::uniform_int_distribution<int> place(-9999, 9999);
   std::uniform_int_distribution<int> system(54, 59);
-  const int sets = draws(200);
+  const int sets = draws(200, 6);
   int done = 0;
   for (int attempt = 0; done < sets && attempt < 20 * sets; ++attempt) {
     driver::PostOptions post;

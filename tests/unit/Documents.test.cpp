@@ -1,6 +1,7 @@
 // The commands that the pages of docs/ show: each runs as it is printed, or says here why not. README and the
 // tutorials, which also show what is printed, are Manual.test.cpp's; rules and messages have tests of their
 // own.
+#include "tests/Draws.h"
 #include "tests/GoldenRunner.h"
 #include "tests/Process.h"
 #include "tests/Skips.h"
@@ -190,9 +191,11 @@ TEST_CASE("documents: the commands of each page run as they are printed") {
   int ran = 0;
   std::map<std::string_view, int> left; // by reason
   std::set<const NotRun*> used;
+  std::size_t number = 0;
   for (const auto& [page, text] : pages()) {
     const std::vector<std::string> commands = commandsOf(text);
     if (commands.empty()) continue;
+    const bool listed = fewDraws() && number++ % 4 != 0; // its commands do not run
     const ProcessFolder folder;
     bool prepared = false;
     for (const std::string& command : commands) {
@@ -201,6 +204,7 @@ TEST_CASE("documents: the commands of each page run as they are printed") {
         used.insert(one);
         continue;
       }
+      if (listed) continue;
       if (command.starts_with("jq ") && folder.run("command -v jq").status != 0) {
         skip("there is no jq");
         break;
@@ -218,7 +222,7 @@ TEST_CASE("documents: the commands of each page run as they are printed") {
     MESSAGE("not run: " << count << ": " << reason);
   for (const NotRun& one : kNotRun)
     CHECK_MESSAGE(used.contains(&one), one.page << ": " << one.begin << " is nowhere");
-  CHECK(ran > 40);
+  CHECK(ran > (fewDraws() ? 10 : 40));
 }
 
 TEST_CASE("documents: a synopsis has flags that the command has, and each subcommand of ./dev is one") {

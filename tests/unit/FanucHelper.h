@@ -131,10 +131,14 @@ struct SurfaceCycle : Maker {
     away.origin.block = 9;
     add(ir::ProbePower{false});
   }
-  void fixAll() {
-    ir::fold(
-        cycle,
-        {{travel, 10}, {nominal, 0}, {system, 56}, {back, 50}, {depth, -5}, {clearance, 50}, {radius, 3}});
+  void fixAll(double wanted = 0) {
+    ir::fold(cycle, {{travel, 10},
+                     {nominal, wanted},
+                     {system, 56},
+                     {back, 50},
+                     {depth, -5},
+                     {clearance, 50},
+                     {radius, 3}});
   }
 };
 

@@ -39,7 +39,7 @@ void equalsPost(const Case& one) {
   std::uniform_int_distribution<int> place(-99999, 99999);
   std::uniform_int_distribution<int> system(53, 60);
   std::uniform_int_distribution<int> scale(1, 3);
-  const int sets = draws(60);
+  const int sets = draws(60, 6);
   int printed = 0, refused = 0;
   for (int set = 0; set < sets || printed < sets / 4; ++set) {
     REQUIRE_MESSAGE(set < 50 * sets, one.folder << ": only " << printed << " value sets pass the checks");
@@ -72,7 +72,7 @@ void equalsPost(const Case& one) {
     CHECK(withoutNumbers(run.text) == withoutNumbers(posted.output));
     ++printed;
   }
-  CHECK(refused > 0);
+  CHECK((refused > 0 || fewDraws()));
 }
 
 // A cycle of one field `V` that a post prints with the picture.

@@ -1,5 +1,6 @@
 // What is installed beside the program: manual, completions, licences; and the Debian package.
 #include "support/Version.h"
+#include "tests/Draws.h"
 #include "tests/GoldenRunner.h"
 #include "tests/Process.h"
 #include "tests/Skips.h"
@@ -112,6 +113,7 @@ END)");
 }
 
 TEST_CASE("install: two packages of one program have the same bytes, and hold what belongs to it") {
+  if (fewDraws()) return skip("a package is made of the program without the sanitizers");
   const ProcessFolder folder;
   if (!have(folder, "python3 cmake dpkg-deb dpkg-shlibdeps strip")) return;
   const ShellResult made = folder.run(

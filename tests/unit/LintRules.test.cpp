@@ -5,6 +5,7 @@
 #include "frontend/macrob/Check.h"
 #include "lint/Page.h"
 #include "lint/Rule.h"
+#include "tests/Draws.h"
 #include "tests/GoldenRunner.h"
 #include "tests/unit/DataFolder.h"
 
@@ -163,7 +164,8 @@ TEST_CASE("lint rules: the document of each rule holds") {
       if (example.clean) {
         CHECK_MESSAGE(example.expected.empty(), "carets are below ## Clean");
         std::string others;
-        CHECK_MESSAGE(findings(example, "all", others).empty(), "with --select all:" << others);
+        if (!fewDraws())
+          CHECK_MESSAGE(findings(example, "all", others).empty(), "with --select all:" << others);
       } else {
         CHECK_MESSAGE(!example.expected.empty(), "no caret");
       }
@@ -226,7 +228,9 @@ TEST_CASE("lint rules: numbers that nothing goes to change no finding") {
     return out;
   };
   std::size_t seen = 0;
+  std::size_t page = 0;
   for (const fs::path& path : documents()) {
+    if (fewDraws() && page++ % 5 != 0) continue;
     const std::string id = path.stem().string();
     INFO(id);
     for (const Example& example : Document(path).examples) {
@@ -239,7 +243,7 @@ TEST_CASE("lint rules: numbers that nothing goes to change no finding") {
       CHECK(codes(example, "all") == codes(other, "all"));
     }
   }
-  CHECK(seen > 200);
+  CHECK(seen > (fewDraws() ? 30 : 200));
 }
 
 namespace {

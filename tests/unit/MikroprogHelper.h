@@ -60,7 +60,7 @@ struct MikroprogTarget {
   backends::mikroprog::EmitOptions options;
 
   explicit MikroprogTarget(std::string_view name = "mikroprog-mill")
-      : control(loadMikroprog(name)), options{control, "TEST", {}, {}, {}, false, {}} {
+      : control(loadMikroprog(name)), options{control, "TEST", {}, {}, {}, false, {}, false, {}} {
     options.hosts = {{"tool_radius", 3}, {"overtravel", 5}, {"return_feed", 1000},
                      {"clearance", 5},   {"start_x", -10},  {"start_y", 10}};
   }

@@ -86,12 +86,38 @@ TEST_CASE("mikroprog: the datum of a surface lies on the part, whatever its erro
 TEST_CASE("mikroprog: with the tool length to the centre the datum of a top is the same") {
   MikroprogTarget target;
   target.options.lengthToCentre = true;
-  const Touch cycle(ir::Axis::Z, 20, -20, 7);
+  const Touch cycle(ir::Axis::Z, 20, -20, -7);
   Box part;
   part.high[2] = 0.25 + kRadius; // the centre is a radius above the surface
   part.low[2] = -50;
   const Run run(target, cycle.cycle, part);
-  CHECK(0.25 - run.machine.activeZero()[2] == doctest::Approx(7));
+  CHECK(0.25 - run.machine.activeZero()[2] == doctest::Approx(-7));
+}
+
+TEST_CASE("mikroprog: a travel that goes on beyond its surface leads back to where it began") {
+  const Touch cycle(ir::Axis::X, -5, 20, 0);
+  for (const double error : errors()) {
+    CAPTURE(error);
+    MikroprogTarget target;
+    int asked = 0;
+    target.options.drawnSurfaces = [&] {
+      ++asked;
+      return std::vector<backends::mikroprog::DrawnSurface>{
+          {ir::Axis::X, true, 9, {6, 25, -5}},  // on another line
+          {ir::Axis::X, false, 3, {6, 10, -5}}, // from the other side
+          {ir::Axis::X, true, 0, {-3, 10, -5}},
+          {ir::Axis::X, true, 40, {37, 10, -5}}}; // farther than the travel
+    };
+    Box part;
+    part.high[2] = 0;
+    part.low[0] = error - kRadius;
+    const Run run(target, cycle.cycle, part);
+    CHECK(asked == 1);
+    CHECK(error - run.machine.activeZero()[0] == doctest::Approx(0).epsilon(1e-9));
+    CHECK(run.machine.position()[0] == doctest::Approx(-10));
+  }
+  MikroprogTarget blind;
+  CHECK(blind.emit(cycle.cycle).codes().contains("travel-past-nominal"));
 }
 
 TEST_CASE("mikroprog: a lathe counts X as a diameter") {

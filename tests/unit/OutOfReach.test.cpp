@@ -207,7 +207,7 @@ TEST_CASE("a name that JavaScript reserves is reported at its line") {
 
 TEST_CASE("a value with more digits than its format keeps is reported at its line for every target") {
   OneBlock one;
-  const auto finer = [](auto& options) { options.common.set = {{"var", "1.23456"}, {"X", "12.5"}}; };
+  const auto finer = [](auto& options) { options.common.set = {{"var", "1.23456"}, {"X", "-12.5"}}; };
   CHECK(codesAt(one.convert("fanuc", "M9", finer), Severity::Warning, "post.txt", 9) ==
         Codes{"number-rounded"});
   CHECK(codesAt(one.convert("mikroprog", "M9", finer), Severity::Warning, "post.txt", 9) ==

@@ -1,10 +1,12 @@
 // What lies in a folder under a name that Dotek reads and is no regular file: nobody named it, so nobody
 // waits for it, and it is not passed over in silence where something depends on it.
+#include "tests/Draws.h"
 #include "tests/GoldenRunner.h"
 #include "tests/Process.h"
 #include "tests/Skips.h"
 
 #include <doctest/doctest.h>
+#include <string_view>
 #include <vector>
 
 using namespace dotek::tests;
@@ -50,6 +52,8 @@ TEST_CASE("settings that cannot be read are an error of each command") {
   for (const char* make : {"mkfifo dotek.toml", "ln -s /dev/zero dotek.toml", "ln -s dotek.toml dotek.toml",
                            "ln -s nowhere dotek.toml", "mkdir dotek.toml", "echo '[lint' > dotek.toml",
                            "echo 'schema = 1\nno-such-key = 1' > dotek.toml"}) {
+    const std::string_view how = make;
+    if (fewDraws() && !how.starts_with("mkfifo") && !how.starts_with("echo '[lint'")) continue;
     folder.run(std::string("rm -rf dotek.toml; ") + make);
     for (const char* command : {"lint p.nc",
                                 "lint .",

@@ -75,7 +75,7 @@ TEST_CASE("verify cycles: the library does on a control what it means") {
       CAPTURE(name);
       CAPTURE(set);
       driver::VerifyOptions options = optionsOf(libraryPath(name), set);
-      options.cases = draws(20U, 4U);
+      options.cases = draws(20U, 3U);
       const driver::Outcome outcome = driver::verify(options);
       CHECK_MESSAGE(outcome.status == 0, said(outcome));
       CHECK_MESSAGE(outcome.output.starts_with("AGREES"), outcome.output);
@@ -288,7 +288,7 @@ TEST_CASE("verify cycles: a cycle that computes agrees on a control without our 
 
 TEST_CASE("verify cycles: a change of the program is a difference") {
   driver::VerifyOptions options = optionsOf(libraryPath("bore"), "inspection-plus");
-  options.cases = 60;
+  options.cases = draws(60U, 20U);
   options.results = {{"size", "#520"}, {"centre_x", "#521"}};
   const driver::Outcome sound = driver::verify(options);
   REQUIRE_MESSAGE(sound.status == 0, said(sound));

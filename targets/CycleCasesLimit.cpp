@@ -1,0 +1,47 @@
+// Where a case depends on the last digit of what is measured.
+#include "ir/Program.h"
+#include "targets/CycleCasesParts.h"
+#include "targets/Stage.h"
+
+#include <algorithm>
+
+namespace dotek::targets {
+
+// The part of the case with its touches moved along their ways; nullopt: its part is not made of touches.
+std::optional<sim::Part> CaseRunner::partBeside(const Values& values, const verify::PartError& more,
+                                                const SourceQuestions::Growth& grown) const {
+  if (!values.path || values.path->touches.empty() || plan_.part) return std::nullopt;
+  std::vector<verify::Touch> touches = values.path->nominal();
+  for (std::size_t i = 0; i < touches.size(); ++i)
+    if (!grown.touch || *grown.touch == i)
+      touches[i].point = touches[i].point + touches[i].direction * grown.by;
+  verify::PartError error = values.drawn.error;
+  error.shift = error.shift + more.shift;
+  error.turn += more.turn;
+  const double radius = values.drawn.hosts.at("tool_radius");
+  return verify::partOf(touches, radius, std::max(radius, kReach), error);
+}
+
+// Whether both go the same way with the surfaces a little nearer, and a little farther, whoever calls: what
+// differs at the place between depends on the last digit of what is measured, which other arithmetic or other
+// macros do not share.
+bool CaseRunner::meetsLimit(const Values& values, bool probeOn) {
+  constexpr double kBeside = 0.003; // mm: more than the digits of any control leave
+  if (target_->meetsLimitsAlike() || !values.posted) return false;
+  const auto& body = values.posted->file.programs.front().body;
+  const bool compares = std::any_of(body.begin(), body.end(), [](const ir::ProgramStatement& one) {
+    return std::holds_alternative<ir::Branch>(one.node);
+  });
+  if (!compares) return false;
+  for (const double by : {kBeside, -kBeside}) {
+    const std::optional<sim::Part> part = partBeside(values, {}, {by});
+    if (!part) return false;
+    sim::World world(*part, probeFor(plan_, values.drawn));
+    const verify::Record source = runPosted(values, world, probeOn, verify::Stand::Way::Run);
+    const TargetRun ran = runTarget(values, world, probeOn, &source);
+    if (ran.refused || ran.undecided || !ran.differences.empty()) return false;
+  }
+  return true;
+}
+
+} // namespace dotek::targets
