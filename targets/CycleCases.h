@@ -116,7 +116,7 @@ private:
                            verify::Stand::Way way, const verify::Interference& interference = {}) const;
   std::string whyNotMeasured(Values& values);
   TargetRun runTarget(const Values& values, sim::World& world, bool probeOn, const verify::Record* source,
-                      ShownRun* shown = nullptr);
+                      ShownRun* shown = nullptr, bool asks = true);
   std::optional<sim::Part> partBeside(const Values& values, const verify::PartError& more,
                                       const SourceQuestions::Growth& grown) const;
   bool meetsLimit(const Values& values, bool probeOn);

@@ -33,14 +33,17 @@ bool CaseRunner::meetsLimit(const Values& values, bool probeOn) {
     return std::holds_alternative<ir::Branch>(one.node);
   });
   if (!compares) return false;
-  for (const double by : {kBeside, -kBeside}) {
-    const std::optional<sim::Part> part = partBeside(values, {}, {by});
-    if (!part) return false;
-    sim::World world(*part, probeFor(plan_, values.drawn));
-    const verify::Record source = runPosted(values, world, probeOn, verify::Stand::Way::Run);
-    const TargetRun ran = runTarget(values, world, probeOn, &source);
-    if (ran.refused || ran.undecided || !ran.differences.empty()) return false;
-  }
+  // Most of what differs does so there, too, and shows without other callers.
+  for (const bool asks : {false, true})
+    for (const double by : {kBeside, -kBeside}) {
+      if (asks && !values.drawn.callers) break;
+      const std::optional<sim::Part> part = partBeside(values, {}, {by});
+      if (!part) return false;
+      sim::World world(*part, probeFor(plan_, values.drawn));
+      const verify::Record source = runPosted(values, world, probeOn, verify::Stand::Way::Run);
+      const TargetRun ran = runTarget(values, world, probeOn, &source, nullptr, asks);
+      if (ran.refused || ran.undecided || !ran.differences.empty()) return false;
+    }
   return true;
 }
 

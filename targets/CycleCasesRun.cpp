@@ -21,7 +21,7 @@ constexpr double kNear = 0.01; // beside what a corrected path measures, mm
 } // namespace
 
 TargetRun CaseRunner::runTarget(const Values& values, sim::World& world, bool probeOn,
-                                const verify::Record* source, ShownRun* shown) {
+                                const verify::Record* source, ShownRun* shown, bool asks) {
   const verify::Entry entry = entryOf(values, probeOn);
   const std::set<std::uint32_t> none;
   TargetCase now{.drawn = values.drawn,
@@ -43,7 +43,7 @@ TargetRun CaseRunner::runTarget(const Values& values, sim::World& world, bool pr
   // other callers get is none of it.
   CaseResult known;
   if (options_.replay) comparePath(known, values);
-  if (values.drawn.callers && known.findings.empty()) now.questions = &questions;
+  if (asks && values.drawn.callers && known.findings.empty()) now.questions = &questions;
   return target_->run(now);
 }
 

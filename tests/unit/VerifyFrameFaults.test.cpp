@@ -52,6 +52,7 @@ std::vector<Translation> translations(bool eachSet, const char* to = "fanuc") {
       if (entry.is_directory()) folders.push_back(entry.path());
     std::sort(folders.begin(), folders.end());
     for (const fs::path& folder : folders) {
+      if (fewDraws() && out.size() >= 4) return out; // each is verified without a fault first
       const std::size_t first = turn++;
       for (std::size_t n = 0; n < kSets.size(); ++n) {
         const char* const set = kSets[(first + n) % kSets.size()];
@@ -232,7 +233,7 @@ TEST_CASE("verify sees faults in the frame of programs") {
   if (const char* text = std::getenv("DOTEK_FRAME_FAULTS"))
     wanted = static_cast<std::size_t>(parseNumber(text).value_or(1000));
   const std::vector<Translation> all = translations(std::getenv("DOTEK_FRAME_FAULTS") != nullptr);
-  REQUIRE(all.size() >= 10);
+  REQUIRE(all.size() >= (fewDraws() ? 4 : 10));
   struct Place {
     const Translation* in = nullptr;
     Fault fault;
