@@ -20,7 +20,6 @@ namespace {
 
 constexpr std::uint32_t kAttempts = 24;       // to find values with which the program comes to its end
 constexpr std::uint32_t kChecked = 400;       // of them, that a check of the program rejects
-constexpr std::uint32_t kUnarmed = 2;         // draws of one case that measure with the probe off
 constexpr std::uint32_t kEndless = 3;         // of them, that come to the limit of steps
 constexpr std::uint32_t kMostSteps = 200'000; // of one run: --limit sim-steps may make it less
 constexpr std::uint64_t kCallerCases = 8;   // in which the probe meets something else, and callers have modes
@@ -277,7 +276,7 @@ std::set<std::uint32_t> ProgramRunner::rejectedBy(const verify::Record& record) 
 
 // What a check rejects is drawn anew, and nothing else: so several checks are met one after the other.
 std::optional<verify::Case> ProgramRunner::draw(std::uint64_t index) {
-  std::uint32_t endless = 0, unarmed = 0;            // the former take long
+  std::uint32_t endless = 0;                         // they take long
   std::map<std::uint32_t, std::uint32_t> rejections; // by the place of the check
   Tries tries;
   for (std::uint32_t free = 0, checked = 0; free < kAttempts && checked < kChecked && endless < kEndless;) {
@@ -288,8 +287,6 @@ std::optional<verify::Case> ProgramRunner::draw(std::uint64_t index) {
     if (!drawn_->record.overLimit && !differences(*drawn_, runTarget(*drawn_)).empty()) break;
     const std::set<std::uint32_t> read = rejectedBy(drawn_->record);
     if (read.empty()) {
-      // A probe that other values do not switch on, either: its touches say nothing in any of them.
-      if (verify::probeOffIn(drawn_->record).measuring && ++unarmed == kUnarmed) break;
       ++free;
       ++tries[0];
       continue;
