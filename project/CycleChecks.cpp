@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 namespace dotek::project {
 
@@ -123,21 +124,26 @@ void takeComputed(const gibbs::ChecksResult& result, const CycleFolder& folder, 
     if (isStored(typed, session, name)) values[name] = value;
 }
 
+gibbs::RunContext runContext(const CycleFolder& folder, const FieldTable& fields,
+                             std::map<std::string, double> hosts, Session& session) {
+  MacroLoader* const loader = folder.loader.get();
+  return {session.sources(),
+          session.gibbsKeywords(),
+          session.limits(),
+          session.diagnostics(),
+          fields.macroValues(),
+          std::move(hosts),
+          session.options().assume,
+          [loader](const std::string& name, SourceRange where) { return loader->macro(name, where); },
+          [loader](const std::string& name, SourceRange where) { return loader->dialog(name, where); },
+          &loader->programs()};
+}
+
 void runCycleChecks(const CycleFolder& folder, FieldTable& fields, const std::map<std::string, double>& hosts,
                     Session& session, Blame blame) {
   if (!folder.cycle->cycleData) return;
   Diagnostics& diagnostics = session.diagnostics();
-  gibbs::RunContext context{
-      session.sources(),
-      session.gibbsKeywords(),
-      session.limits(),
-      diagnostics,
-      fields.macroValues(),
-      hosts,
-      session.options().assume,
-      [&](const std::string& name, SourceRange where) { return folder.loader->macro(name, where); },
-      [&](const std::string& name, SourceRange where) { return folder.loader->dialog(name, where); },
-      &folder.loader->programs()};
+  gibbs::RunContext context = runContext(folder, fields, hosts, session);
   const gibbs::ChecksResult result = gibbs::runChecks(*folder.cycle->cycleData, context);
   switch (result.verdict) {
   case gibbs::ChecksResult::Verdict::Rejected: rejected(result, folder, context, blame, diagnostics); return;

@@ -29,6 +29,10 @@ enum class Blame : std::uint8_t { Fields, Nothing };
 void takeComputed(const frontend::gibbs::ChecksResult& result, const CycleFolder& folder,
                   const Session& session, std::map<std::string, double>& values);
 
+// How macros of the folder run on these values, all of which outlive it; reports to the session.
+frontend::gibbs::RunContext runContext(const CycleFolder& folder, const FieldTable& fields,
+                                       std::map<std::string, double> hosts, Session& session);
+
 // Reports values that the dialog would not let pass; takes over values that the macro computes.
 void runCycleChecks(const CycleFolder& folder, FieldTable& fields, const std::map<std::string, double>& hosts,
                     Session& session, Blame blame = Blame::Fields);

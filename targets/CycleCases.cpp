@@ -190,17 +190,7 @@ std::unique_ptr<CaseRunner::Values> CaseRunner::check(verify::Case drawn, bool s
     return out;
   }
   if (folder_->cycle->toolPath) {
-    gibbs::RunContext context{
-        session_.sources(),
-        session_.gibbsKeywords(),
-        session_.limits(),
-        session_.diagnostics(),
-        out->fields.macroValues(),
-        out->drawn.hosts,
-        session_.options().assume,
-        [&](const std::string& name, SourceRange where) { return folder_->loader->macro(name, where); },
-        [&](const std::string& name, SourceRange where) { return folder_->loader->dialog(name, where); },
-        &folder_->loader->programs()};
+    gibbs::RunContext context = project::runContext(*folder_, out->fields, out->drawn.hosts, session_);
     const auto path = gibbs::runToolPath(*folder_->cycle->toolPath, context);
     if (!path) {
       noteEndless(out->drawn);

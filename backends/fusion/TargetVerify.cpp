@@ -41,10 +41,10 @@ public:
                limits_),
         runner_({source.session.options().scriptProgram, source.session.limits()}) {}
 
-  // Macros that correct an offset by measured less expected take no other nominal, and the fragment says so.
   bool meetsLimitsAlike() const override {
     return control_.arithmetic == stdlib::Arithmetic::Decimal8 && sourceSet_ == set_;
   }
+  // Macros that correct an offset by measured less expected take no other nominal, and the fragment says so.
   bool needsNominal() const override {
     return set_ != sourceSet_ &&
            from_.plan.translation->text.find(fusion::kMissedNominal) != std::string::npos;

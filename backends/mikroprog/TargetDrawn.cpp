@@ -36,24 +36,17 @@ std::vector<DrawnSurface> drawnSurfaces(const CycleFolder& folder,
   for (const auto& [name, value] : values)
     fields.set(name, value, {});
   runCycleChecks(folder, fields, hosts, session, project::Blame::Nothing);
-  frontend::gibbs::RunContext context{
-      session.sources(),
-      session.gibbsKeywords(),
-      session.limits(),
-      session.diagnostics(),
-      fields.macroValues(),
-      hosts,
-      session.options().assume,
-      [&](const std::string& name, SourceRange where) { return folder.loader->macro(name, where); },
-      [&](const std::string& name, SourceRange where) { return folder.loader->dialog(name, where); },
-      &folder.loader->programs()};
-  // Paths count from the retract plane, which a macro that writes places takes off again.
-  const double plane = hosts.contains("retract") ? hosts.at("retract") : hosts.at("clearance");
-  context.hosts.emplace("retract", plane);
+  std::map<std::string, double> given = hosts;
+  // An axis that the control lacks counts for nothing. Paths count from the retract plane, which a macro that
+  // writes places takes off again.
+  for (const char* start : {"start_x", "start_y"})
+    given.emplace(start, 0);
+  const double plane = given.emplace("retract", given.at("clearance")).first->second;
+  frontend::gibbs::RunContext context = project::runContext(folder, fields, given, session);
   const auto moves = frontend::gibbs::runToolPath(*folder.cycle->toolPath, context);
   if (!moves) return {};
-  const verify::DrawnPath path = verify::drawnPath(*moves, {hosts.at("start_x"), hosts.at("start_y"), plane},
-                                                   plane, hosts.at("tool_radius"));
+  const verify::DrawnPath path = verify::drawnPath(*moves, {given.at("start_x"), given.at("start_y"), plane},
+                                                   plane, given.at("tool_radius"));
   std::vector<DrawnSurface> out;
   for (const verify::DrawnTouch& touch : path.touches) {
     const sim::Point3 &way = touch.touch.direction, &face = touch.touch.point, &at = path.points[touch.move];
