@@ -148,6 +148,23 @@ double hostValue(const std::string& name, Random& random) {
   return thousandths(random.between(1, 60));
 }
 
+// Where the path crosses at `highest` from touches to others, the faces of partOf() end below; else far down.
+double facesBelow(const DrawnPath& path, double highest) {
+  constexpr double kFar = -1e9, kGap = 0.5; // mm
+  if (path.touches.empty()) return kFar;
+  bool crosses = false;
+  for (std::size_t n = path.touches.front().move + 1; n <= path.touches.back().move; ++n) {
+    const sim::Point3 &from = path.points[n - 1], &to = path.points[n];
+    crosses |=
+        from.z >= highest - 1e-9 && to.z >= highest - 1e-9 && std::hypot(to.x - from.x, to.y - from.y) > 1e-9;
+  }
+  if (!crosses) return kFar;
+  double out = kFar;
+  for (const DrawnTouch& each : path.touches)
+    if (each.touch.direction.z == 0) out = std::max(out, each.touch.point.z + kFaceHalf + kGap);
+  return out;
+}
+
 } // namespace
 
 Draws::Draws(std::vector<DrawField> fields, std::vector<std::string> hosts,
@@ -282,8 +299,9 @@ void Draws::settleHosts(Case& drawn, const DrawnPath& path) const {
       if (path.points[n].z < highest - 1e-9) second = std::max(second, path.points[n].z);
     if (second == -1e9) second = highest;
     if (isDrawn("clearance")) {
-      const double at = thousandths(second + (highest - second) * down);
-      drawn.hosts["clearance"] = at >= second && at <= highest ? at : highest;
+      const double least = std::min(highest, std::max(second, facesBelow(path, highest)));
+      const double at = thousandths(least + (highest - least) * down);
+      drawn.hosts["clearance"] = at >= least && at <= highest ? at : highest;
     }
     if (isDrawn("start_z")) {
       const auto clearance = drawn.hosts.find("clearance");

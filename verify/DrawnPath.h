@@ -43,6 +43,8 @@ struct PartError {
   double turn = 0;   // degrees
 };
 
+// How far the faces of partOf() go above and below the ball's centre, mm.
+constexpr double kFaceHalf = 3;
 // A part that has the surfaces which these touches expect: opposite touches that look outward from one
 // middle, two pairs of one size, are a bore (looking inward: a boss; one pair looking inward: a web), as are
 // three at angles to the axes that look from one middle over one distance; other

@@ -17,7 +17,6 @@ constexpr double kSame = 1e-6;   // mm: places that are meant to be one
 constexpr double kMiddle = 1e-5; // mm: where lines meet that are known as exactly as that
 constexpr double kBeside = 2.5;  // mm of a face beside the ball: more than an error moves the contact
 constexpr double kBehind = 2;    // mm of material after a search that finds nothing
-constexpr double kAbove = 3;     // mm of a face above and below the ball's centre
 constexpr double kRim = 10;      // mm of a plate around its bore
 constexpr double kLeast = 0.35;  // mm of a face beside the ball's centre: an error moves it by no more
 constexpr double kMeets = 0.01;  // mm that the ball gets into a face before it is in its way
@@ -102,7 +101,7 @@ private:
           high = std::max(high, touch.point.z);
         }
         std::erase_if(rest, belongs);
-        addRound(*circle, low - kAbove, circle->outward ? high + kAbove : takeTop(*circle, high, rest));
+        addRound(*circle, low - kFaceHalf, circle->outward ? high + kFaceHalf : takeTop(*circle, high, rest));
         return takeCircles(rest);
       }
   }
@@ -177,7 +176,7 @@ private:
         low = std::min(low, p.middle.z);
         high = std::max(high, p.middle.z);
       }
-      addRound(first, low - kAbove, first.outward ? high + kAbove : takeTop(first, high, rest));
+      addRound(first, low - kFaceHalf, first.outward ? high + kFaceHalf : takeTop(first, high, rest));
       std::erase_if(pairs, belongs);
     }
   }
@@ -190,7 +189,7 @@ private:
       return touch.direction.z < 0 && touch.point.z > high - kSame &&
              std::hypot(beside.x, beside.y) < pair.half;
     });
-    if (top == rest.end()) return high + kAbove;
+    if (top == rest.end()) return high + kFaceHalf;
     const double out = top->point.z;
     rest.erase(top);
     return out;
@@ -235,7 +234,7 @@ private:
     block.axes[1] = level ? Point3{-direction.y, direction.x, 0} : Point3{1, 0, 0};
     block.axes[2] = level ? Point3{0, 0, 1} : Point3{0, 1, 0};
     block.low[1] = -beside_, block.high[1] = beside_;
-    block.low[2] = level ? -kAbove : -beside_, block.high[2] = level ? kAbove : beside_;
+    block.low[2] = level ? -kFaceHalf : -beside_, block.high[2] = level ? kFaceHalf : beside_;
     for (const Touch& touch : all_)
       if (touch.way > 0) makeWay(block, touch);
     Point3 middle = point - middle_;

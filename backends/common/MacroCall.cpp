@@ -61,6 +61,18 @@ ir::ExpressionPtr overtravelOf(const stdlib::MacroSet* macros, ir::Axis axis) {
   return known ? ir::constant(*known) : nullptr;
 }
 
+std::optional<double> searchesOn(const stdlib::MacroSet* source, const stdlib::MacroSet& macros,
+                                 const stdlib::MacroSignature& signature, const ir::Measure& measure) {
+  if (source == nullptr || source == &macros || !measure.target || measure.target->frame != ir::Frame::Here)
+    return std::nullopt;
+  const stdlib::MacroSignature* own = signatureOf(*source, measure);
+  if (own == nullptr || !stdlib::travelIsSearch(*own, measure.axis) ||
+      stdlib::travelIsSearch(signature, measure.axis))
+    return std::nullopt;
+  const stdlib::ProbingFacts& facts = macros.probing;
+  return measure.axis == ir::Axis::Z && facts.overtravelZ ? facts.overtravelZ : facts.overtravel;
+}
+
 namespace {
 
 ir::ExpressionPtr beyondOf(const CallValues& values, ir::Axis axis) {

@@ -55,6 +55,11 @@ struct CallValues {
 // Overtravel of calls that state none; nullptr: not known, or there is no set.
 ir::ExpressionPtr overtravelOf(const stdlib::MacroSet* macros, ir::Axis axis);
 
+// How far the macro that `signature` describes, of `macros`, searches on where the travel of the source's own
+// macro, of `source`, ends its search, mm; nothing: no farther, or no fact says it.
+std::optional<double> searchesOn(const stdlib::MacroSet* source, const stdlib::MacroSet& macros,
+                                 const stdlib::MacroSignature& signature, const ir::Measure& measure);
+
 // Known to be 0: it says no direction.
 bool isNoTravel(const ir::ExpressionPtr& travel);
 // `travel`, made longer by `more` in its own direction, where it has one.

@@ -4,6 +4,7 @@
 #include "backends/fanuc/State.h"
 #include "backends/fanuc/WrittenFirst.h"
 #include "ir/CycleNames.h"
+#include "ir/Evaluate.h"
 #include "ir/Rewrite.h"
 #include "ir/Walk.h"
 #include "support/Decimal.h"
@@ -145,20 +146,52 @@ private:
   std::map<std::uint32_t, std::vector<bool>> unwritten_;
 };
 
+bool isSystem(double number) {
+  return number >= 1 && number <= 6 && number == std::floor(number);
+}
+
+// What locals that the checks alone assign, and once, have where `input` has this value.
+ir::Environment follows(const ir::Cycle& cycle, ir::VariableId input, double value) {
+  std::map<ir::VariableId, int> assigned;
+  for (const auto* list : {&cycle.checks, &cycle.body})
+    for (const ir::CycleStatement& statement : *list)
+      if (const auto* assign = std::get_if<ir::Assign>(&statement.node)) ++assigned[assign->variable];
+  ir::Environment out(cycle.variables.size());
+  if (!assigned.contains(input)) out[input] = ir::Scalar::of(value);
+  for (const ir::CycleStatement& statement : cycle.checks) {
+    const auto* assign = std::get_if<ir::Assign>(&statement.node);
+    if (assign != nullptr && assigned[assign->variable] == 1 && assign->variable != input)
+      out[assign->variable] = ir::evaluate(*assign->value, out);
+  }
+  return out;
+}
+
+// Each value of the list of one field, which the program's checks confine it to, makes it 1 to 6.
+bool isSystemByList(const State& state, const ir::Expression& number) {
+  return std::any_of(state.options.choices.begin(), state.options.choices.end(), [&](const auto& list) {
+    const auto& [input, choices] = list;
+    return !choices.empty() && std::all_of(choices.begin(), choices.end(), [&](const Choice& choice) {
+      const ir::Scalar there = ir::evaluate(number, follows(state.cycle, input, choice.value));
+      return there.known() && isSystem(there.value);
+    });
+  });
+}
+
 // `G10 L2 P1 X.. Y.. Z..` writes an offset on both: P1 to P6 are the systems of the group that both tell.
-bool writesWorkOffset(const ir::OpaqueBlock& block, const stdlib::Control& from, const stdlib::Control& to) {
+bool writesWorkOffset(const State& state, const ir::OpaqueBlock& block) {
   bool offset = false;
   for (const ir::Word& word : block.words) {
     const double* number = word.value == nullptr ? nullptr : ir::constantValue(word.value);
     if (std::string_view("XYZN").find(word.address) != std::string_view::npos) continue;
-    if (number == nullptr) return false;
-    if (word.address == 'L' && *number == 2)
+    if (number == nullptr) {
+      if (word.address != 'P' || word.value == nullptr || !isSystemByList(state, *word.value)) return false;
+    } else if (word.address == 'L' && *number == 2) {
       offset = true;
-    else if (!(word.address == 'G' && *number == 10) &&
-             !(word.address == 'P' && *number >= 1 && *number <= 6))
+    } else if (!(word.address == 'G' && *number == 10) && !(word.address == 'P' && isSystem(*number))) {
       return false;
+    }
   }
-  return offset && workSystemVariable(from) && workSystemVariable(to);
+  return offset && workSystemVariable(state.options.sourceControl) && workSystemVariable(state.control);
 }
 
 // What the block has beside what both controls are known to read alike: "its `P` is computed", "it has
@@ -168,7 +201,7 @@ std::string unlikeWorkOffset(const ir::OpaqueBlock& block) {
     if (std::string_view("GXYZN").find(word.address) != std::string_view::npos) continue;
     const double* number = word.value == nullptr ? nullptr : ir::constantValue(word.value);
     if (word.address == 'L' && number != nullptr && *number == 2) continue;
-    if (word.address == 'P' && number != nullptr && *number >= 1 && *number <= 6) continue;
+    if (word.address == 'P' && number != nullptr && isSystem(*number)) continue;
     return number == nullptr ? fmt::format("its `{}` is computed", word.address)
                              : fmt::format("it has `{}{}`", word.address, numberText(*number));
   }
@@ -206,7 +239,7 @@ std::string copiedText(State& state, const ir::OpaqueBlock& block, const ir::Ori
   const stdlib::Control& from = state.options.sourceControl;
   const bool same = state.control.name == from.name;
   const bool reads = from.decimal == state.control.decimal && from.increment == state.control.increment;
-  const bool offset = !same && writesWorkOffset(block, from, state.control);
+  const bool offset = !same && writesWorkOffset(state, block);
   std::string text, foreign;
   bool unlisted = false;  // the code that is foreign, by the control of the source
   bool dataInput = false; // it is the code of both, and its words are what may differ

@@ -5,10 +5,14 @@
 #include "backends/fanuc/OwnCycles.h"
 #include "backends/fanuc/State.h"
 #include "ir/Linear.h"
+#include "support/Decimal.h"
 #include "support/messages/Fanuc.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <fmt/format.h>
+#include <vector>
 
 namespace dotek::backends::fanuc {
 
@@ -117,6 +121,7 @@ public:
                   values.setsSystem ? extendedSystems(state_, signature_) : ExtendedSystems());
     writeCall(state_, macroCall(signature_, measure_, values), origin_);
     if (state_.failed) return;
+    reportSearch();
     keepResults(state_, origin_);
     if (!measure_.setting || values.setsSystem) return;
     for (const ir::Axis axis : ir::kAxes)
@@ -125,6 +130,12 @@ public:
   }
 
 private:
+  void reportSearch() {
+    const auto on = searchesOn(state_.options.source, state_.macros, signature_, measure_);
+    if (!on || !state_.reported.insert("search").second) return;
+    state_.diagnostics.report<diag::SearchGoesOn>(origin_.range(), signature_.program, numberText(*on));
+    state_.remarks.push_back("SEARCHES " + numberText(*on) + " MM FARTHER THAN THE MACRO OF THE SOURCE");
+  }
   const ir::ExpressionPtr& nominal(ir::Axis axis) const {
     return measure_.setting->nominal[ir::indexOf(axis)];
   }
@@ -171,10 +182,50 @@ ir::ExpressionPtr expectedAt(State& state, const ir::CallCycle& cycle, ir::Axis 
   return place(state, {target->value, *target->frame, nullptr}, axis, ir::Frame::Work, origin.range());
 }
 
+// The same for what is read after the call: a position that is not known while the program is written is read
+// into locals before it.
+class Expected {
+public:
+  Expected(State& state, const ir::Origin& origin) : state_(state), origin_(origin) {}
+  ~Expected() { state_.freeHelpers.insert(state_.freeHelpers.end(), taken_.begin(), taken_.end()); }
+  Expected(const Expected&) = delete;
+  Expected& operator=(const Expected&) = delete;
+
+  ir::ExpressionPtr at(const ir::CallCycle& cycle, ir::Axis axis) {
+    ir::ExpressionPtr& known = known_[ir::indexOf(axis)];
+    if (known == nullptr)
+      known = isAtPosition(cycle, axis) ? read(axis) : expectedAt(state_, cycle, axis, origin_);
+    return known;
+  }
+
+private:
+  bool isAtPosition(const ir::CallCycle& cycle, ir::Axis axis) const {
+    return workPosition(state_, axis) == nullptr &&
+           std::none_of(cycle.arguments.begin(), cycle.arguments.end(), [&](const auto& one) {
+             return one.frame && one.parameter.back() == "xyz"[ir::indexOf(axis)];
+           });
+  }
+  ir::ExpressionPtr read(ir::Axis axis) {
+    const ir::ExpressionPtr now = positionNow(state_, axis, origin_);
+    const std::uint32_t local = now == nullptr ? 0 : state_.helper();
+    if (local == 0) return nullptr;
+    std::erase(state_.helpers, local); // it lasts until the call has been dealt with
+    taken_.push_back(local);
+    assign(state_, fmt::format("#{}", local), now, origin_);
+    state_.waited = state_.sheet.size(); // nothing moves in between
+    return systemVariable(static_cast<int>(local));
+  }
+
+  State& state_;
+  const ir::Origin& origin_;
+  std::array<ir::ExpressionPtr, 3> known_;
+  std::vector<std::uint32_t> taken_;
+};
+
 // Whether the macro itself sets the offset as the cycle does. Where not, or where it wants the nominal, that
 // gets its value: the coordinate at which the feature is expected.
 bool setsByItself(State& state, ir::CallCycle& cycle, const stdlib::MacroSignature& signature, bool checked,
-                  const ir::Origin& origin) {
+                  const ir::Origin& origin, Expected& expected) {
   ir::CycleSetting& setting = *cycle.setting;
   const auto system =
       std::find_if(signature.arguments.begin(), signature.arguments.end(),
@@ -187,7 +238,7 @@ bool setsByItself(State& state, ir::CallCycle& cycle, const stdlib::MacroSignatu
   for (const ir::Axis axis : ir::kAxes) {
     ir::ExpressionPtr& nominal = setting.nominal[ir::indexOf(axis)];
     if (!setting.axes[ir::indexOf(axis)] || nominal != nullptr) continue;
-    nominal = expectedAt(state, cycle, axis, origin);
+    nominal = expected.at(cycle, axis);
     if (nominal == nullptr && !state.failed)
       state.refuse<diag::StartUnknown>(origin.range(), std::string(1, ir::letterOf(axis)));
     if (nominal == nullptr) return false;
@@ -244,13 +295,14 @@ void writeCycle(State& state, const ir::CallCycle& given, const ir::Origin& orig
   }
   ir::CallCycle cycle = given;
   CallValues values = valuesFor(state, origin);
+  Expected expected(state, origin);
   const std::vector<Tolerance> tolerances =
       takeTolerances(cycle, state.macros, *signature, [&](const ir::CallCycle& of, ir::Axis axis) {
-        const ir::ExpressionPtr at = expectedAt(state, of, axis, origin);
+        const ir::ExpressionPtr at = expected.at(of, axis);
         return at == nullptr ? nullptr : tidy(at);
       });
   if (cycle.setting) {
-    values.setsSystem = setsByItself(state, cycle, *signature, !tolerances.empty(), origin);
+    values.setsSystem = setsByItself(state, cycle, *signature, !tolerances.empty(), origin, expected);
     if (state.failed) return;
     guardSystem(state, cycle.setting->system, origin,
                 values.setsSystem ? extendedSystems(state, *signature) : ExtendedSystems());

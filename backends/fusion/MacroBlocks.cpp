@@ -1,5 +1,4 @@
 // Blocks of another macro set than the source's: from what they mean, by the signatures of the set.
-#include "backends/common/CycleTolerances.h"
 #include "backends/common/CycleTouches.h"
 #include "backends/common/MacroCall.h"
 #include "backends/fusion/State.h"
@@ -13,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace dotek::backends::fusion {
 
@@ -66,6 +66,7 @@ MacroBlocks::MacroBlocks(State& state, Texts& texts) : state_(state), texts_(tex
     at_[i].value = fixed != state.options.fixedByName.end() ? ir::constant(fixed->second)
                                                             : ir::variable(state.host(kStarts[i]));
   }
+  planCopies();
 }
 
 bool MacroBlocks::block(const std::vector<const ir::CycleStatement*>& statements, std::vector<Text>& lines) {
@@ -127,10 +128,12 @@ bool MacroBlocks::block(const std::vector<const ir::CycleStatement*>& statements
         *one, [&](const ir::Move& node) { move(node, origin, lines); },
         [&](const ir::Measure& node) {
           measure(node, origin, lines);
+          copyResults(*one, lines);
           setLast(one);
         },
         [&](const ir::CallCycle& node) {
           cycle(node, origin, lines);
+          copyResults(*one, lines);
           setLast(one);
         },
         [&](const ir::ProbePower& node) {
@@ -139,7 +142,9 @@ bool MacroBlocks::block(const std::vector<const ir::CycleStatement*>& statements
           else
             other();
         },
-        [&](const ir::Store& node) { store(node, origin, lines); },
+        [&](const ir::Store& node) {
+          if (!moved_.contains(one)) store(node, origin, lines);
+        },
         [&](const ir::Comment& node) { comment += " (" + node.text + ")"; },
         [](const ir::Label&) {}, // its number is before the lines
         [&](const ir::OneOf<ir::Jump, ir::Branch, ir::Assign, ir::Return, ir::Spindle, ir::Coolant,
@@ -435,99 +440,13 @@ void MacroBlocks::measure(const ir::Measure& measure, const ir::Origin& origin, 
   });
   call(out, origin, lines);
   if (state_.failed) return;
+  if (const auto on = searchesOn(state_.options.source, state_.options.macros, *signature, measure);
+      on && !state_.options.fixedByName.contains("overtravel") && !std::exchange(saysSearch_, true))
+    state_.diagnostics.report<diag::SearchGoesOn>(origin.range(), signature->program, numberText(*on));
   if (!given.setsSystem) writeOffset(*measure.setting, *signature, lines, origin);
   // The system that was set may be the active one.
   for (const ir::Axis axis : ir::kAxes)
     if (measure.setting && measure.setting->nominal[ir::indexOf(axis)] != nullptr)
-      at_[ir::indexOf(axis)].value = nullptr;
-}
-
-void MacroBlocks::cycle(const ir::CallCycle& given, const ir::Origin& origin, std::vector<Text>& lines) {
-  const stdlib::MacroSet& macros = state_.options.macros;
-  const stdlib::MacroSignature* signature = signatureOf(macros, given);
-  if (signature == nullptr) {
-    const std::vector<ir::Measure> touches = touchesOf(given);
-    for (const ir::Measure& touch : touches)
-      measure(touch, origin, lines);
-    if (touches.empty())
-      state_.refuse<diag::MacroSetCannot>(origin.range(), macros.title, featureName(given));
-    return;
-  }
-  if (const std::string open = openMeaning(*signature, given, macros); !open.empty()) {
-    state_.refuse<diag::CycleOpen>(origin.range(), featureName(given), given.set, open, given.set);
-    return;
-  }
-  ir::CallCycle call = given;
-  const ExpectedAlong expects = [&](const ir::CallCycle& of, ir::Axis axis) {
-    for (const ir::CycleArgument& one : of.arguments)
-      if (one.frame && one.parameter.back() == "xyz"[ir::indexOf(axis)])
-        return place({one.value, *one.frame, nullptr}, axis, ir::Frame::Work, origin);
-    return at_[ir::indexOf(axis)].value;
-  };
-  std::vector<Tolerance> tolerances;
-  if (state_.options.control.ifThen) tolerances = takeTolerances(call, macros, *signature, expects);
-  CallValues asked = values(origin);
-  std::optional<ir::OffsetSetting> own; // what the blocks set themselves, after the tolerances
-  if (call.setting) {
-    const auto system =
-        std::find_if(signature->arguments.begin(), signature->arguments.end(),
-                     [](const auto& argument) { return argument.role == stdlib::ArgumentRole::System; });
-    if (system == signature->arguments.end()) {
-      state_.refuse<diag::MacroSetCannot>(origin.range(), macros.title,
-                                          "a work offset of " + featureName(given));
-      return;
-    }
-    guardSystem(call.setting->system, origin);
-    for (const ir::Axis axis : ir::kAxes) {
-      ir::ExpressionPtr& nominal = call.setting->nominal[ir::indexOf(axis)];
-      if (!call.setting->axes[ir::indexOf(axis)]) continue;
-      if (system->systemRule == stdlib::SystemRule::Error) {
-        // It corrects by measured minus expected: a coordinate of its own would be lost.
-        if (nominal != nullptr)
-          state_.refuse<diag::MacroSetCannot>(origin.range(), macros.title,
-                                              "a work offset that gives the feature another coordinate than "
-                                              "the expected one");
-        continue;
-      }
-      if (nominal == nullptr) nominal = at_[ir::indexOf(axis)].value;
-      if (nominal == nullptr)
-        state_.refuse<diag::StartUnknown>(origin.range(), std::string(1, ir::letterOf(axis)));
-    }
-    if (!tolerances.empty()) {
-      own = ir::OffsetSetting{call.setting->system, call.setting->nominal};
-      for (const ir::Axis axis : ir::kAxes)
-        if (call.setting->axes[ir::indexOf(axis)] && own->nominal[ir::indexOf(axis)] == nullptr)
-          own->nominal[ir::indexOf(axis)] = expects(call, axis);
-      if (const std::string why = offsetObstacle(*signature, *own); !why.empty()) {
-        state_.refuse<diag::OffsetWriteUnsafe>(origin.range(), "the feature", why,
-                                               "take the macro set of the source");
-        return;
-      }
-      asked.setsSystem = false;
-      checkShift(*own, lines, origin);
-    }
-  }
-  for (const ir::Axis axis : ir::kAxes) {
-    expected_[ir::indexOf(axis)] = at_[ir::indexOf(axis)];
-    for (const ir::CycleArgument& one : call.arguments)
-      if (one.frame && one.parameter.back() == "xyz"[ir::indexOf(axis)])
-        expected_[ir::indexOf(axis)].value =
-            place({one.value, *one.frame, nullptr}, axis, ir::Frame::Work, origin);
-  }
-  MacroCall out = macroCall(*signature, call, asked);
-  for (const std::string& parameter : out.notTaken) {
-    if (stdlib::isPrintout(parameter))
-      state_.diagnostics.report<diag::PrintLeftOut>(origin.range(), macros.title);
-    else
-      state_.refuse<diag::ParameterNotTaken>(origin.range(), parameter, signature->program, macros.title,
-                                             given.set);
-  }
-  this->call(out, origin, lines);
-  for (const Tolerance& one : tolerances)
-    if (!state_.failed) alarmAbove(one.error, one.limit, one.text, lines, origin);
-  if (own && !state_.failed) writeOffset(*own, *signature, lines, origin);
-  for (const ir::Axis axis : ir::kAxes)
-    if (!given.returns || (given.setting && given.setting->axes[ir::indexOf(axis)]))
       at_[ir::indexOf(axis)].value = nullptr;
 }
 

@@ -2,6 +2,7 @@
 #include "backends/common/MacroCall.h"
 #include "backends/fusion/State.h"
 #include "ir/Dataflow.h"
+#include "ir/Flow.h"
 #include "ir/Fold.h"
 #include "support/Decimal.h"
 #include "support/messages/Fanuc.h"
@@ -34,30 +35,100 @@ bool MacroBlocks::overwritesResults(const ir::CycleStatement& statement) const {
                          ir::Alarm> auto&) { return false; });
 }
 
-void MacroBlocks::join(std::size_t label) {
+const std::vector<Lasts>& MacroBlocks::lasts() {
   const auto& body = state_.cycle.body;
-  if (lasts_.empty()) {
-    const auto facts = ir::factsBefore(
-        body, Lasts{nullptr},
-        [&](std::size_t at, std::size_t, const Lasts& before) -> Lasts {
-          return ir::match(
-              body[at],
-              [&](const ir::OneOf<ir::Measure, ir::CallCycle> auto&) -> Lasts { return {&body[at]}; },
-              [&](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Move, ir::ProbePower,
-                                  ir::Comment, ir::Assign, ir::Return, ir::Spindle, ir::Coolant, ir::SetMode,
-                                  ir::Dwell, ir::Stop, ir::Alarm, ir::OpaqueBlock> auto&) -> Lasts {
-                return overwritesResults(body[at]) ? Lasts{nullptr} : before;
-              });
-        },
-        [](Lasts& into, const Lasts& other) {
-          const std::size_t before = into.size();
-          into.insert(other.begin(), other.end());
-          return into.size() != before;
-        });
-    for (const auto& fact : facts)
-      lasts_.push_back(fact.value_or(Lasts()));
+  if (!lasts_.empty()) return lasts_;
+  const auto facts = ir::factsBefore(
+      body, Lasts{nullptr},
+      [&](std::size_t at, std::size_t, const Lasts& before) -> Lasts {
+        return ir::match(
+            body[at], [&](const ir::OneOf<ir::Measure, ir::CallCycle> auto&) -> Lasts { return {&body[at]}; },
+            [&](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Move, ir::ProbePower,
+                                ir::Comment, ir::Assign, ir::Return, ir::Spindle, ir::Coolant, ir::SetMode,
+                                ir::Dwell, ir::Stop, ir::Alarm, ir::OpaqueBlock> auto&) -> Lasts {
+              return overwritesResults(body[at]) ? Lasts{nullptr} : before;
+            });
+      },
+      [](Lasts& into, const Lasts& other) {
+        const std::size_t before = into.size();
+        into.insert(other.begin(), other.end());
+        return into.size() != before;
+      });
+  for (const auto& fact : facts)
+    lasts_.push_back(fact.value_or(Lasts()));
+  return lasts_;
+}
+
+FoundResult MacroBlocks::after(const ir::CycleStatement* measured, ir::ResultName name) const {
+  const stdlib::MacroSignature* signature =
+      measured == nullptr ? nullptr : signatureOf(state_.options.macros, *measured);
+  return signature == nullptr ? FoundResult() : resultAfter(*signature, *measured, name);
+}
+
+bool MacroBlocks::leadsStraight(const std::vector<std::vector<std::size_t>>& next, std::size_t from,
+                                std::size_t to) const {
+  const auto& body = state_.cycle.body;
+  std::size_t at = from;
+  for (std::size_t steps = 0; steps <= body.size(); ++steps) {
+    if (next[at].size() != 1) return false;
+    at = next[at].front();
+    if (at == to) return true;
+    if (at >= body.size()) return false;
+    const ir::CycleStatement& one = body[at];
+    const bool passes = ir::match(
+        one, [](const ir::OneOf<ir::Label, ir::Jump, ir::Comment> auto&) { return true; },
+        [&](const ir::Store&) { return moved_.contains(&one); },
+        [](const ir::OneOf<ir::Measure, ir::CallCycle, ir::Branch, ir::Move, ir::ProbePower, ir::Assign,
+                           ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop, ir::Alarm,
+                           ir::OpaqueBlock> auto&) { return false; });
+    if (!passes) return false;
   }
-  joined_ = label < lasts_.size() ? lasts_[label] : Lasts{nullptr};
+  return false;
+}
+
+void MacroBlocks::reportInstead(const FoundResult& known, SourceRange range) {
+  if (known.instead)
+    state_.diagnostics.report<diag::ResultDiffers>(range, known.result->variable, state_.options.macros.title,
+                                                   ir::resultTitle(*known.instead));
+}
+
+void MacroBlocks::planCopies() {
+  const auto& body = state_.cycle.body;
+  const auto next = ir::successors(body);
+  for (std::size_t at = 0; at < body.size(); ++at) {
+    const auto* store = std::get_if<ir::Store>(&body[at].node);
+    const auto* result = store == nullptr ? nullptr : std::get_if<ir::MeasuredResult>(&store->value->node);
+    const double* number = result == nullptr ? nullptr : ir::constantValue(store->number);
+    if (number == nullptr || lasts()[at].size() < 2) continue;
+    std::map<const ir::CycleStatement*, FoundResult> each;
+    std::set<std::uint32_t> variables;
+    bool differs = false;
+    for (const ir::CycleStatement* measured : lasts()[at]) {
+      const FoundResult one = after(measured, result->name);
+      if (one.result == nullptr || !leadsStraight(next, static_cast<std::size_t>(measured - body.data()), at))
+        break;
+      each[measured] = one;
+      variables.insert(one.result->variable);
+      differs = differs || one.instead;
+    }
+    if (each.size() != lasts()[at].size() || (variables.size() < 2 && !differs)) continue;
+    moved_.insert(&body[at]);
+    for (const auto& [measured, one] : each) {
+      reportInstead(one, store->value->range);
+      copies_[measured].push_back("#" + numberText(*number) + "=#" + std::to_string(one.result->variable));
+    }
+  }
+}
+
+void MacroBlocks::copyResults(const ir::CycleStatement& measured, std::vector<Text>& lines) {
+  const auto found = copies_.find(&measured);
+  if (found == copies_.end() || state_.failed) return;
+  for (const std::string& copy : found->second)
+    lines.emplace_back().add(copy);
+}
+
+void MacroBlocks::join(std::size_t label) {
+  joined_ = label < lasts().size() ? lasts()[label] : Lasts{nullptr};
   if (joined_.size() == 1 && *joined_.begin() == last_)
     joined_.clear();
   else
@@ -65,15 +136,10 @@ void MacroBlocks::join(std::size_t label) {
 }
 
 FoundResult MacroBlocks::found(ir::ResultName name) const {
-  const auto after = [&](const ir::CycleStatement* measured) {
-    const stdlib::MacroSignature* signature =
-        measured == nullptr ? nullptr : signatureOf(state_.options.macros, *measured);
-    return signature == nullptr ? FoundResult() : resultAfter(*signature, *measured, name);
-  };
-  if (last_ != nullptr) return after(last_);
+  if (last_ != nullptr) return after(last_, name);
   FoundResult out;
   for (const ir::CycleStatement* measured : joined_) {
-    const FoundResult one = after(measured);
+    const FoundResult one = after(measured, name);
     if (one.result == nullptr || one.instead) return {};
     if (out.result != nullptr && out.result->variable != one.result->variable) return {};
     out = one;
@@ -143,10 +209,7 @@ void MacroBlocks::store(const ir::Store& store, const ir::Origin& origin, std::v
   const stdlib::MacroSignature* signature =
       last_ == nullptr ? nullptr : signatureOf(state_.options.macros, *last_);
   const FoundResult known = found(result->name);
-  if (known.instead)
-    state_.diagnostics.report<diag::ResultDiffers>(store.value->range, known.result->variable,
-                                                   state_.options.macros.title,
-                                                   ir::resultTitle(*known.instead));
+  reportInstead(known, store.value->range);
   if (known.result == nullptr) {
     if (state_.failed) return; // the measurement was refused
     Text computed;

@@ -179,6 +179,17 @@ private:
   void setLast(const ir::CycleStatement* measured);
   // At a label: what holds on all ways to it.
   void join(std::size_t label);
+  // Before each statement of the body; see last_.
+  const std::vector<std::set<const ir::CycleStatement*>>& lasts();
+  FoundResult after(const ir::CycleStatement* measured, ir::ResultName name) const;
+  // A result that the macros leave in another variable on each of the ways to the block that keeps it: where
+  // each way leads straight from its call to that block, the copies stand after the calls.
+  void planCopies();
+  // Of a result that only comes near to what the source keeps.
+  void reportInstead(const FoundResult& known, SourceRange range);
+  bool leadsStraight(const std::vector<std::vector<std::size_t>>& next, std::size_t from,
+                     std::size_t to) const;
+  void copyResults(const ir::CycleStatement& measured, std::vector<Text>& lines);
   bool overwritesResults(const ir::CycleStatement& statement) const;
   // Where the result is after the last measurement; where several may be the last, in the variable that all
   // of them leave it in.
@@ -205,11 +216,15 @@ private:
   const ir::CycleStatement* last_ = nullptr;
   std::set<const ir::CycleStatement*> joined_; // where it depends on the way: each; nullptr: on some way none
   std::vector<std::set<const ir::CycleStatement*>> lasts_; // before each statement
-  const ir::Origin* incremental_ = nullptr;                // of the G91 that is in force in the source
-  const ir::Origin* opaque_ = nullptr;                     // of the copied block that is looked at
-  bool overwritten_ = false;                               // by a G90 of ours
-  bool waits_ = false;                                     // the next line reads where the axes are
-  std::map<std::string, int> alarms_;                      // numbers of alarms of ours, by their texts
+  // "#581=#135", after the measurement; and the stores of the source that these replace.
+  std::map<const ir::CycleStatement*, std::vector<std::string>> copies_;
+  std::set<const ir::CycleStatement*> moved_;
+  const ir::Origin* incremental_ = nullptr; // of the G91 that is in force in the source
+  const ir::Origin* opaque_ = nullptr;      // of the copied block that is looked at
+  bool overwritten_ = false;                // by a G90 of ours
+  bool waits_ = false;                      // the next line reads where the axes are
+  bool saysSearch_ = false;                 // that it goes on beyond the source's
+  std::map<std::string, int> alarms_;       // numbers of alarms of ours, by their texts
 };
 
 // ---- Properties.cpp ----

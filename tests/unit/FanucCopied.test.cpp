@@ -99,6 +99,29 @@ TEST_CASE("fanuc copied: G10 with other words than both controls are known to re
   CHECK(toAnother("G10 L12 P2 R5.", false).all().find("take the block out") != std::string::npos);
 }
 
+TEST_CASE("fanuc copied: G10 of a listed work offset is read alike by both controls") {
+  const auto toAnother = [](const std::vector<double>& offered, double base) {
+    Maker cycle;
+    const VariableId field = cycle.field("WCS", 54),
+                     system = cycle.cycle.add(named("system", ir::Role::Local, ir::Kind::Number));
+    cycle.cycle.checks.push_back(statement(ir::Assign{system, minus(use(field), number(base))}));
+    ir::OpaqueBlock given = copied("G10 L2 P2 Y5.");
+    given.words[2].value = use(system);
+    cycle.add(std::move(given));
+    Target target("inspection-plus", "fanuc-31i-b");
+    for (const double value : offered)
+      target.options.choices[field].push_back({value, ""});
+    return target.emit(cycle.cycle);
+  };
+  const Emission listed = toAnother({54, 55, 59}, 53);
+  CHECK(listed.codes().empty());
+  CHECK_MESSAGE(listed.holds("G10 L2 P#"), listed.all());
+  CHECK(toAnother({}, 53).codes() == Codes{"data-input-refused"});
+  CHECK(toAnother({54, 60}, 53).codes() == Codes{"data-input-refused"});   // P7
+  CHECK(toAnother({54, 55}, 54).codes() == Codes{"data-input-refused"});   // P0: the external offset
+  CHECK(toAnother({54.5, 55}, 53).codes() == Codes{"data-input-refused"}); // P1.5
+}
+
 TEST_CASE("fanuc copied: one path through the branch is enough to refuse") {
   Maker cycle;
   const VariableId a = cycle.field("a", 1);

@@ -149,6 +149,55 @@ TEST_CASE("verify: calls that no source states, made alike") {
   CHECK(verified(corner, replaced(good, line, "(" + line + ")")).find("\nDIFFERS") != std::string::npos);
 }
 
+TEST_CASE("verify: holes one after the other, above whose plate the probe travels") {
+  Shop row{"series", "KS.Otvory.Rada", "sonda", "fanuc", "inspection-plus", "fanuc-31i-b"};
+  row.cases = 60;
+  const std::string said = verified(row);
+  CHECK_MESSAGE(said.find("\nAGREES: 60 of 60 drawn cases") != std::string::npos, said);
+}
+
+TEST_CASE("verify: a zone of position in a loop, where the place is read from the control") {
+  for (const char* control : {"fanuc-0i-md", "fanuc-31i-b"}) {
+    const Shop spigot{"zones", "HF.Zapfen.Lage", "taster", "fanuc", "dotek", control};
+    const std::string good = converted(spigot);
+    CHECK_MESSAGE(agrees(verified(spigot)), verified(spigot));
+    for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{
+             {"=#5041\n", "=#5042\n"}, {"=#5042\n", "=0.\n"}, {"2.*SQRT[", "SQRT["}})
+      CHECK_MESSAGE(verified(spigot, replaced(good, from, to)).find("\nDIFFERS") != std::string::npos,
+                    from << " to " << to);
+  }
+}
+
+TEST_CASE("verify: a fragment writes the offset of what its macro sets none for") {
+  const Shop slot{"series", "KS.Drazka.Sikma", "sonda", "fusion", "dotek", "fanuc-31i-b"};
+  const std::string good = converted(slot);
+  CHECK_MESSAGE(agrees(verified(slot)), verified(slot));
+  for (const auto& [from, to] :
+       std::vector<std::pair<std::string, std::string>>{{"+#135-[", "+#136-["}, {"+#136-[", "-#136-["}})
+    CHECK_MESSAGE(verified(slot, replaced(good, from, to)).find("\nDIFFERS") != std::string::npos,
+                  from << " to " << to);
+}
+
+TEST_CASE("verify: a result that the ways leave in different variables is copied on each of them") {
+  for (const char* macros : {"dotek", "inspection-plus"}) {
+    const Shop face{"chained", "TM.Face.Laterale", "palpage", "fusion", macros, "fanuc-0i-md"};
+    const std::string good = converted(face);
+    CHECK_MESSAGE(agrees(verified(face)), verified(face));
+    CHECK(good.find("#581=#135") < good.find("#581=#136"));
+    for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{
+             {"#581=#136", "#581=#135"}, {"  writeBlock(\"#581=#135\");\n", ""}})
+      CHECK_MESSAGE(verified(face, replaced(good, from, to)).find("\nDIFFERS") != std::string::npos,
+                    from << " to " << to);
+  }
+}
+
+TEST_CASE("verify: G10 of a listed work offset, for another control") {
+  const Shop height{"touches", "BR-ALTEZZA", "tasta", "fanuc", "easyprobe", "fanuc-31i-b"};
+  const std::string good = converted(height);
+  CHECK_MESSAGE(agrees(verified(height)), verified(height));
+  CHECK(verified(height, replaced(good, "G10 L2 P#16", "G10 L2 P1")).find("\nDIFFERS") != std::string::npos);
+}
+
 TEST_CASE("verify: blocks that jumps lead to keep the numbers of the Prog in a fragment") {
   const std::string said = verified({"direct", "DP.Top.Zero", "touch", "fusion", "dotek", "fanuc-0i-md"});
   CHECK_MESSAGE(agrees(said), said);
