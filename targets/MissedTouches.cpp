@@ -131,6 +131,35 @@ std::vector<verify::Difference> compareObstructed(std::size_t move, const Distur
   return found;
 }
 
+// Where the source tries again: nothing is found ever after, and what is measured again does not repeat.
+std::vector<verify::Difference> compareRepeated(const verify::Record& source, const verify::Record& ran,
+                                                const DisturbedSides& sides) {
+  if (source.searches != ran.searches || source.calls != ran.calls) return {};
+  std::vector<verify::Difference> found;
+  verify::Interference nothing;
+  nothing.andLater = true;
+  if (source.searches > 0) nothing.missing = 0;
+  if (source.calls > 0) nothing.missedCall = 0;
+  const std::optional<verify::Record> meant = sides.source(nothing);
+  if (meant && (meant->searches > 1 || meant->calls > 1))
+    found = compareUnder(nothing, sides, "where nothing is ever found");
+  // mm; on no limit that somebody would give
+  constexpr double kApart[] = {0.3171, 1.0433};
+  const std::size_t measures = std::max(source.searches, source.calls);
+  for (std::size_t from = 0; from < std::min(measures, kMost) && measures > 1; ++from)
+    for (const double by : kApart) {
+      if (!found.empty()) return found;
+      verify::Interference unlike;
+      unlike.unlike = {from, by, from == 0};
+      found = compareUnder(unlike, sides,
+                           from == 0 ? fmt::format("where measurements differ by {} mm in turn", by)
+                                     : fmt::format("where measurement {} and later ones find the surface {} "
+                                                   "mm earlier",
+                                                   from + 1, by));
+    }
+  return found;
+}
+
 } // namespace
 
 std::vector<verify::Difference> compareDisturbed(const verify::Record& source, const verify::Record& ran,
@@ -152,6 +181,7 @@ std::vector<verify::Difference> compareDisturbed(const verify::Record& source, c
   });
   each(source.protectedMoves, ran.protectedMoves,
        [&](std::size_t move) { return compareObstructed(move, sides); });
+  if (found.empty()) found = compareRepeated(source, ran, sides);
   return found;
 }
 

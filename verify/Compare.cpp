@@ -98,6 +98,11 @@ private:
     if (source_.alarm == 0 || target_.alarm == 0) return true;
     constexpr std::uint32_t kOwn = 3000;
     if (source_.alarm != target_.alarm || source_.alarm < kOwn) return source_.alarm == target_.alarm;
+    return sameOwnText();
+  }
+
+  // Of `#3000`; one control may show less of it.
+  bool sameOwnText() const {
     const std::size_t shown = std::min(source_.text.size(), target_.text.size());
     return source_.text.compare(0, shown, target_.text, 0, shown) == 0 &&
            (shown > 0 || source_.text == target_.text);
@@ -118,6 +123,8 @@ private:
       same = (renumbered() || source_.alarm == target_.alarm) && source_.text == target_.text;
     else if (alarms && rules_.sameProgram && same && source_.alarmKind.empty())
       same = sameOwnAlarm();
+    else if (alarms && same && source_.alarmKind.empty() && target_.alarmKind.empty())
+      same = sameOwnText();
     if (!same) {
       add(Aspect::Ending, howItEnds("the source", source_) + ", " + howItEnds("the translation", target_),
           source_.endedAt, target_.endedAt);

@@ -122,6 +122,21 @@ void compareState(const ComparedPair& pair, const Surroundings& a, const Surroun
   pair.add(Aspect::State, text + std::string(when), source, target);
 }
 
+// An operator who reads the stop may keep what is written after it from being written.
+void writtenBefore(const ComparedPair& pair, const Deed& a, const Deed& b, const std::string& stop) {
+  for (const auto* one : {&a.written, &b.written})
+    for (const std::string& name : *one) {
+      const bool ofSource = one == &a.written;
+      if ((ofSource ? b : a).written.contains(name) || !pair.source.offsetWrites.contains(name) ||
+          !pair.target.offsetWrites.contains(name))
+        continue;
+      return pair.add(Aspect::State,
+                      fmt::format("{} is written {} {}, in the source {} it", name,
+                                  ofSource ? "after" : "before", stop, ofSource ? "before" : "after"),
+                      a.range, b.range);
+    }
+}
+
 // Tools, M codes, stops: which, in which order, where, and with what on.
 void compareDeeds(const ComparedPair& pair) {
   const std::vector<Deed>&a = pair.source.deeds, &b = pair.target.deeds;
@@ -156,6 +171,7 @@ void compareDeeds(const ComparedPair& pair) {
       return;
     }
     compareState(pair, a[i].with, b[i].with, " at " + one, here, there);
+    if (a[i].kind == Deed::Kind::Stop && b[i].kind == Deed::Kind::Stop) writtenBefore(pair, a[i], b[i], one);
   }
 }
 

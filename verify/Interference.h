@@ -18,6 +18,7 @@ inline constexpr double kStep = 0.001;
 struct Interference {
   std::optional<std::size_t> missing;    // this search finds nothing
   std::optional<std::size_t> missedCall; // no touch of this measuring call finds anything
+  bool andLater = false;                 // neither does any search or call after that
   // This protected move, bare or of a macro whose probe is on, is stopped: `beforeEnd` mm from its end, or
   // half way where that is 0.
   std::optional<std::size_t> obstacle;
@@ -30,6 +31,14 @@ struct Interference {
     double distance = 0;
   };
   std::optional<Placed> placed = {};
+  // Two measurements of one surface that do not tell the same: from this search or call on each surface is
+  // met that much earlier, or each time another one of three places; never before the ball has gone a little.
+  struct Unlike {
+    std::size_t from = 0;
+    double by = 0;         // mm, above 0
+    bool changing = false; // by 0, once and twice as much in turn
+  };
+  std::optional<Unlike> unlike = {};
 };
 
 // Pieces after the last stop, which the operator has read, that go straight up in feed. 0 where anything else

@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -131,6 +132,7 @@ struct Deed {
   std::size_t measures = 0; // that had begun before it
   Surroundings with;
   SourceRange range;
+  std::set<std::string> written = {}; // work offsets that had been written before a stop: "G54 X"
 };
 
 // A protected move called for where the machine is already: it moves nothing, but from another place it

@@ -175,6 +175,8 @@ void Recorder::note(Deed::Kind kind, double value, std::string_view text) {
   if (call_.depth > 0) return;
   record_.deeds.push_back({kind, value, std::string(text), lowest(machine_.machinePosition()),
                            record_.measures.size(), surroundings(), place()});
+  for (const auto& [name, writes] : record_.offsetWrites)
+    if (kind == Deed::Kind::Stop && name.starts_with('G')) record_.deeds.back().written.insert(name);
 }
 
 void Recorder::addPiece(sim::PathKind kind, const sim::Point3& from, const sim::Point3& to,

@@ -102,6 +102,9 @@ private:
   void disturb(std::size_t pieces);       // how many belong to it and are still to come
   double obstacleAt(double length) const; // as a share of the path
   bool interferesInCall(double length, std::optional<double>& share);
+  bool isMissed(std::optional<std::size_t> wanted, std::size_t number) const;
+  // mm that an interference lets a surface be met earlier.
+  double nearerBy(std::optional<std::size_t> search) const;
   void takeEvents();
   void noteSystem(const stdlib::MacroSignature& signature, std::span<const double> locals);
   void noteOptions(const stdlib::MacroSignature& signature, std::span<const double> locals,

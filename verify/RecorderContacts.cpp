@@ -73,16 +73,13 @@ std::optional<double> Recorder::contact(const sim::SkipMove& move) {
   double length = 0;
   for (std::size_t i = 0; i < 3; ++i)
     length = std::hypot(length, move.machineTo[i] - move.machineFrom[i]);
-  if (length > 0) {
-    for (std::size_t i = 0; i < 3; ++i)
-      longer.machineTo[i] += (move.machineTo[i] - move.machineFrom[i]) * (kTouchSlack / length);
-  }
   std::optional<std::size_t> search;
   if (length > 0 && call_.depth == 0) {
     std::size_t& count = positions_ ? record_.protectedMoves : record_.searches;
     const std::size_t number = count++;
     if (!positions_) search = number;
-    const bool disturbed = (positions_ ? interference_.obstacle : interference_.missing) == number;
+    const bool disturbed =
+        positions_ ? interference_.obstacle == number : isMissed(interference_.missing, number);
     if (disturbed) {
       disturb(1);
       return positions_ ? std::optional(obstacleAt(length)) : std::nullopt;
@@ -90,9 +87,29 @@ std::optional<double> Recorder::contact(const sim::SkipMove& move) {
   }
   std::optional<double> disturbed;
   if (length > 0 && call_.depth > 0 && interferesInCall(length, disturbed)) return disturbed;
+  const double nearer = interference_.unlike ? nearerBy(search) : 0;
+  for (std::size_t i = 0; i < 3 && length > 0; ++i)
+    longer.machineTo[i] += (move.machineTo[i] - move.machineFrom[i]) * ((kTouchSlack + nearer) / length);
   std::optional<double> share = world_.contact(longer);
-  if (share && length > 0) share = std::min(1.0, *share * (length + kTouchSlack) / length);
+  if (share && length > 0) {
+    constexpr double kLeast = 0.05; // mm
+    const double distance = *share * (length + kTouchSlack + nearer);
+    share = std::min(1.0, (nearer > 0 ? std::max(std::min(distance, kLeast), distance - nearer) : distance) /
+                              length);
+  }
   return search && interference_.placed ? placedContact(move, length, *search, share) : share;
+}
+
+bool Recorder::isMissed(std::optional<std::size_t> wanted, std::size_t number) const {
+  return wanted && (*wanted == number || (interference_.andLater && *wanted < number));
+}
+
+// `search`: nothing within a call.
+double Recorder::nearerBy(std::optional<std::size_t> search) const {
+  const std::optional<std::size_t> number = search ? search : call_.measures ? call_.number : std::nullopt;
+  const Interference::Unlike& unlike = *interference_.unlike;
+  if (!number || *number < unlike.from) return 0;
+  return unlike.by * (unlike.changing ? static_cast<double>((*number - unlike.from) % 3) : 1);
 }
 
 double Recorder::obstacleAt(double length) const {
@@ -104,7 +121,7 @@ bool Recorder::interferesInCall(double length, std::optional<double>& share) {
   if (!call_.moves && !call_.measures) return false;
   if (!call_.number) call_.number = (call_.moves ? record_.protectedMoves : record_.calls)++;
   if (call_.moves ? interference_.obstacle != call_.number || !world_.on()
-                  : interference_.missedCall != call_.number)
+                  : !isMissed(interference_.missedCall, *call_.number))
     return false;
   if (call_.moves) share = obstacleAt(length);
   return true;

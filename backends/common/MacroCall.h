@@ -55,8 +55,8 @@ struct CallValues {
 // Overtravel of calls that state none; nullptr: not known, or there is no set.
 ir::ExpressionPtr overtravelOf(const stdlib::MacroSet* macros, ir::Axis axis);
 
-// How far the macro that `signature` describes, of `macros`, searches on where the travel of the source's own
-// macro, of `source`, ends its search, mm; nothing: no farther, or no fact says it.
+// How far the macro that `signature` describes, of `macros`, searches beyond the end of a travel that is all
+// that is known of the search of the source's own macro, of `source`, mm; nothing: no farther, or not known.
 std::optional<double> searchesOn(const stdlib::MacroSet* source, const stdlib::MacroSet& macros,
                                  const stdlib::MacroSignature& signature, const ir::Measure& measure);
 

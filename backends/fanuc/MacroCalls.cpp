@@ -134,7 +134,7 @@ private:
     const auto on = searchesOn(state_.options.source, state_.macros, signature_, measure_);
     if (!on || !state_.reported.insert("search").second) return;
     state_.diagnostics.report<diag::SearchGoesOn>(origin_.range(), signature_.program, numberText(*on));
-    state_.remarks.push_back("SEARCHES " + numberText(*on) + " MM FARTHER THAN THE MACRO OF THE SOURCE");
+    state_.remarks.push_back("SEARCHES " + numberText(*on) + " MM BEYOND THE END OF A TRAVEL OF THE SOURCE");
   }
   const ir::ExpressionPtr& nominal(ir::Axis axis) const {
     return measure_.setting->nominal[ir::indexOf(axis)];
