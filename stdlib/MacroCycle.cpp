@@ -96,6 +96,11 @@ std::string parameterName(const MacroArgument& argument) {
   return out;
 }
 
+std::string parameterWords(std::string_view parameter) {
+  if (parameter == roleName(ArgumentRole::FlagOnly)) return "M1, which raises no alarm";
+  return "its " + std::string(parameter);
+}
+
 bool isPrintout(std::string_view parameter) {
   return parameter == roleName(ArgumentRole::Print);
 }

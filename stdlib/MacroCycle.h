@@ -27,6 +27,10 @@ std::optional<ir::Axis> axisOf(const MacroSignature& signature);
 // meaning is in no source: "letter k".
 std::string parameterName(const MacroArgument& argument);
 
+// The parameter, by its name, as a message says it of a call: "its size-tolerance", "M1, which raises no
+// alarm".
+std::string parameterWords(std::string_view parameter);
+
 // The probe moves by the argument; false: it checks, corrects or prints.
 bool movesProbe(ArgumentRole role);
 

@@ -163,6 +163,16 @@ void options(const ComparedPair& pair, const Measure& a, const Measure& b) {
     const std::optional<double> beyond = searches ? beyondSurface(a, b) : std::nullopt;
     // The control rounds the word of the travel, and the place that it begins from.
     if (beyond && std::abs(*beyond - one->second) <= pair.rules.tolerance + 2 * kPrintedHalf) continue;
+    if (role == stdlib::ArgumentRole::FlagOnly) {
+      const auto says = [](const Measure& of) {
+        const auto given = of.options.find(stdlib::ArgumentRole::FlagOnly);
+        const bool goesOn = given != of.options.end() && given->second == 1;
+        return goesOn ? "M1, which raises no alarm where nothing is found" : "no M1 (an alarm is raised)";
+      };
+      pair.add(Aspect::Nominal, withLetters(sidesText(says(a), says(b)), a, b, pair.rules.tolerance), a.range,
+               b.range);
+      return;
+    }
     const std::string name(stdlib::roleName(role));
     const double there = other != b.options.end() ? other->second : beyond.value_or(0);
     const ShownNumbers values = shownNumbers(one == a.options.end() ? 0 : one->second, there);

@@ -314,8 +314,8 @@ void writeCycle(State& state, const ir::CallCycle& given, const ir::Origin& orig
       state.sheet.comment("PRINT OF THE SOURCE LEFT OUT", origin);
       continue;
     }
-    state.refuse<diag::ParameterNotTaken>(origin.range(), parameter, signature->program, state.macros.title,
-                                          given.set);
+    state.refuse<diag::ParameterNotTaken>(origin.range(), stdlib::parameterWords(parameter),
+                                          signature->program, state.macros.title, given.set);
   }
   if (state.failed) return;
   writeCall(state, call, origin);

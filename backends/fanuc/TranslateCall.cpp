@@ -195,8 +195,12 @@ private:
     if (argument.role == ArgumentRole::Overtravel && travelsFar()) return; // with the target
     const MacroArgument* place = to_->find(argument.role, argument.axis);
     if (place == nullptr || !place->unknown.empty())
-      return refuse(fmt::format("`{}` of {} is its {}, and `{}` is not known to take one", argument.letter,
-                                title(), stdlib::roleName(argument.role), target()));
+      return refuse(
+          argument.role == ArgumentRole::FlagOnly
+              ? fmt::format("`{}1` of {} raises no alarm, and `{}` is not known to have such a call",
+                            argument.letter, title(), target())
+              : fmt::format("`{}` of {} is its {}, and `{}` is not known to take one", argument.letter,
+                            title(), stdlib::roleName(argument.role), target()));
     switch (argument.role) {
     case ArgumentRole::Target: put(*place, coordinate(argument, *place, word.value)); break;
     case ArgumentRole::System: system(argument, *place, word.value); break;

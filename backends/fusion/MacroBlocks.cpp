@@ -72,7 +72,8 @@ MacroBlocks::MacroBlocks(State& state, Texts& texts) : state_(state), texts_(tex
 bool MacroBlocks::block(const std::vector<const ir::CycleStatement*>& statements, std::vector<Text>& lines) {
   const bool rewritten =
       std::any_of(statements.begin(), statements.end(), [&](const ir::CycleStatement* one) {
-        return isMacro(state_, *one) || std::holds_alternative<ir::Move>(one->node) || readsResult(*one);
+        return isMacro(state_, *one) || std::holds_alternative<ir::Move>(one->node) ||
+               (readsResult(*one) && !comparesAlike(*one));
       });
   for (const ir::CycleStatement* one : statements) {
     const ir::Origin& origin = one->origin;

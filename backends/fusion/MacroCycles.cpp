@@ -82,8 +82,8 @@ void MacroBlocks::cycle(const ir::CallCycle& given, const ir::Origin& origin, st
     if (stdlib::isPrintout(parameter))
       state_.diagnostics.report<diag::PrintLeftOut>(origin.range(), macros.title);
     else
-      state_.refuse<diag::ParameterNotTaken>(origin.range(), parameter, signature->program, macros.title,
-                                             given.set);
+      state_.refuse<diag::ParameterNotTaken>(origin.range(), stdlib::parameterWords(parameter),
+                                             signature->program, macros.title, given.set);
   }
   this->call(out, origin, lines);
   for (const Tolerance& one : tolerances)

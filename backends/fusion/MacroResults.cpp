@@ -4,6 +4,7 @@
 #include "ir/Dataflow.h"
 #include "ir/Flow.h"
 #include "ir/Fold.h"
+#include "ir/Walk.h"
 #include "support/Decimal.h"
 #include "support/messages/Fanuc.h"
 
@@ -145,6 +146,28 @@ FoundResult MacroBlocks::found(ir::ResultName name) const {
     out = one;
   }
   return out;
+}
+
+bool MacroBlocks::comparesAlike(const ir::CycleStatement& statement) {
+  if (!std::holds_alternative<ir::Branch>(statement.node) || state_.options.source == nullptr) return false;
+  const Lasts& before = lasts()[static_cast<std::size_t>(&statement - state_.cycle.body.data())];
+  bool alike = !before.empty();
+  ir::eachNode(statement, [&](const ir::Expression& node) {
+    const auto* result = std::get_if<ir::MeasuredResult>(&node.node);
+    if (result == nullptr) return;
+    for (const ir::CycleStatement* measured : before) {
+      const auto* source = measured == nullptr ? nullptr : signatureOf(*state_.options.source, *measured);
+      if (source == nullptr) {
+        alike = false;
+        continue;
+      }
+      const FoundResult there = resultAfter(*source, *measured, result->name);
+      const FoundResult here = after(measured, result->name);
+      alike = alike && there.result != nullptr && here.result != nullptr && !there.instead && !here.instead &&
+              there.result->variable == here.result->variable;
+    }
+  });
+  return alike;
 }
 
 void MacroBlocks::refuseResult(ir::ResultName name, SourceRange range) {

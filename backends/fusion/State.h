@@ -182,6 +182,9 @@ private:
   // Before each statement of the body; see last_.
   const std::vector<std::set<const ir::CycleStatement*>>& lasts();
   FoundResult after(const ir::CycleStatement* measured, ir::ResultName name) const;
+  // The results that a branch compares are in the same variables after the calls of both sets: its block
+  // stays.
+  bool comparesAlike(const ir::CycleStatement& statement);
   // A result that the macros leave in another variable on each of the ways to the block that keeps it: where
   // each way leads straight from its call to that block, the copies stand after the calls.
   void planCopies();

@@ -123,7 +123,7 @@ std::string toPlus(const std::string& text, std::string_view control = "fanuc-0i
 TEST_CASE("protected moves keep their coordinates") {
   CHECK(toPlus("9770 X10. Y#5 F1000.") == "P9810 X10 Y#5 F1000");
   CHECK(toEasy("9810 Z#26 F#9") == "P9770 Z#26 F#9");
-  CHECK(toEasy("9810 Z5. M1").starts_with("refused: `M` of P9810 (protected move) is its flag-only"));
+  CHECK(toEasy("9810 Z5. M1").starts_with("refused: `M1` of P9810 (protected move) raises no alarm"));
   Case one = between("easyprobe", "inspection-plus");
   CHECK(translateCall(call("9770 Z5."), one.settings()).notes.at(0).find("feed") != std::string::npos);
 }

@@ -66,7 +66,8 @@ TEST_CASE(
   const ProcessFolder folder;
   checkDamages(folder, cycle() + " --prog " + (root() / "examples/post.txt").string(),
                " --to fanuc --control fanuc-0i-md --probe-macros dotek", "nc",
-               {{"s/P8810 Z#26.*/& M1./", "a protected move to"}, {"s/P8811.*/& M1./", "flag-only"}});
+               {{"s/P8810 Z#26.*/& M1./", "one that raises no alarm"},
+                {"s/P8811.*/& M1./", "M1, which raises no alarm"}});
   checkDamages(folder, cycle() + " --prog " + (root() / "examples/post.txt").string(),
                " --to fanuc --control fanuc-31i-b --probe-macros inspection-plus", "nc",
                {{"s/P9811.*/& H1./", "size-tolerance"}, {"s/P9810 Z#26.*/& M1./", "raises no alarm"}});
