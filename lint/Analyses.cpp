@@ -36,6 +36,12 @@ const std::vector<ProgBlock>& Analyses::blocks(const std::vector<compost::Statem
   return blocks_.emplace(&statements, collectBlocks(statements, prog, project)).first->second;
 }
 
+const PartRoutines& Analyses::parts(const compost::Program& prog, const Project& project) {
+  const auto known = parts_.find(&prog);
+  if (known != parts_.end()) return known->second;
+  return parts_.emplace(&prog, findParts(prog, project)).first->second;
+}
+
 const std::vector<NameUse>& Analyses::names(const gibbs::Macro& macro, const Project& project) {
   const auto known = names_.find(&macro);
   if (known != names_.end()) return known->second;
@@ -84,6 +90,10 @@ const std::vector<Siblings>& siblingsOf(const Project& project) {
 const std::vector<ProgBlock>& blocksOf(const std::vector<compost::Statement>& statements,
                                        const compost::Program& prog, const Project& project) {
   return project.analyses->blocks(statements, prog, project);
+}
+
+const PartRoutines& partsOf(const compost::Program& prog, const Project& project) {
+  return project.analyses->parts(prog, project);
 }
 
 } // namespace dotek::lint

@@ -33,6 +33,7 @@ public:
   const std::vector<ProgBlock>& blocks(const std::vector<compost::Statement>& statements,
                                        const compost::Program& prog, const Project& project);
 
+  const PartRoutines& parts(const compost::Program& prog, const Project& project);
   const std::vector<NameUse>& names(const gibbs::Macro& macro, const Project& project);
   // Numbers of programs, by the file in which they are called.
   const std::set<std::uint32_t>& called(const macrob::File& file, const Project& project);
@@ -47,6 +48,7 @@ private:
   std::optional<Askers> askers_;
   std::optional<std::vector<Siblings>> siblings_;
   std::map<const std::vector<compost::Statement>*, std::vector<ProgBlock>> blocks_;
+  std::map<const compost::Program*, PartRoutines> parts_;
   std::map<const gibbs::Macro*, std::vector<NameUse>> names_;
   std::optional<std::map<const macrob::File*, std::set<std::uint32_t>>> called_;
 };

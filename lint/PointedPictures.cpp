@@ -29,8 +29,8 @@ void eachPointedBlock(const Project& project,
   eachRoutine(project, [&](const compost::Program& prog, const compost::Routine& routine) {
     if (last != &prog) pointed = printedWithPoint(prog);
     last = &prog;
-    for (const ProgBlock& block : blocksOf(routine.body, prog, project))
-      if (!block.called) visit(wordsOf(block, nullptr), pointed);
+    for (const ProgBlock* block : ownBlocks(routine, prog, project))
+      visit(wordsOf(*block, nullptr), pointed);
   });
 }
 

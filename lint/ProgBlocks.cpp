@@ -22,6 +22,7 @@ public:
 
   std::vector<ProgBlock> run(const std::vector<compost::Statement>& statements) {
     body(statements);
+    block_.open = true;
     close();
     return std::move(out_);
   }
@@ -35,6 +36,7 @@ private:
     const bool open = std::find(open_.begin(), open_.end(), &routine) != open_.end();
     if (++calls_ > kMostCalls || calledPieces_ > kMostCalledPieces || open || open_.size() >= kCallDepth)
       return false;
+    if (!block_.pieces.empty()) block_.joined.push_back(&routine);
     open_.push_back(&routine);
     return true;
   }
@@ -43,7 +45,10 @@ private:
   void literal(const compost::Literal& literal) override {
     if (!literal.text.empty()) add({ProgPiece::Kind::Text, literal.range, &literal, nullptr, "", 0});
   }
-  void endLine(SourceRange) override { close(); }
+  void endLine(SourceRange) override {
+    if (open_.empty()) block_.called = false;
+    close();
+  }
 
   void branch(const compost::If& branch) override {
     ++conditions_;
@@ -72,10 +77,11 @@ private:
     if (block_.pieces.empty()) {
       block_.range = piece.range;
       block_.conditional = conditions_ > 0;
-      block_.called = !open_.empty();
+      block_.called = true;
     } else if (block_.range.file == piece.range.file && piece.range.begin > block_.range.begin) {
       block_.range = spanning(block_.range, piece.range);
     }
+    block_.called = block_.called && !open_.empty();
     block_.pieces.push_back(std::move(piece));
   }
 
@@ -230,6 +236,34 @@ std::uint32_t macroCalled(const std::vector<ProgWord>& words) {
 std::vector<ProgBlock> collectBlocks(const std::vector<compost::Statement>& statements,
                                      const compost::Program& prog, const Project& project) {
   return Collector(prog, project).run(statements);
+}
+
+PartRoutines findParts(const compost::Program& prog, const Project& project) {
+  PartRoutines out;
+  for (const compost::Item& item : prog.items) {
+    const auto* routine = std::get_if<compost::Routine>(&item);
+    if (routine == nullptr) continue;
+    eachStatement(routine->body, [&](const compost::Statement& statement) {
+      const auto* word = std::get_if<compost::Word>(&statement);
+      if (word != nullptr && word->kind == compost::WordKind::Command)
+        out.called.insert(compost::findRoutine(prog, word->name));
+    });
+    for (const ProgBlock& block : blocksOf(routine->body, prog, project))
+      out.begun.insert(block.joined.begin(), block.joined.end());
+  }
+  return out;
+}
+
+std::vector<const ProgBlock*> ownBlocks(const compost::Routine& routine, const compost::Program& prog,
+                                        const Project& project) {
+  std::vector<const ProgBlock*> out;
+  const PartRoutines& parts = partsOf(prog, project);
+  const std::vector<ProgBlock>& blocks = blocksOf(routine.body, prog, project);
+  for (const ProgBlock& block : blocks) {
+    const bool goesOn = &block == &blocks.front() && parts.begun.contains(&routine);
+    if (!block.called && !goesOn && !(block.open && parts.called.contains(&routine))) out.push_back(&block);
+  }
+  return out;
 }
 
 std::vector<Siblings> findSiblings(const Project& project) {

@@ -4,6 +4,7 @@
 #include "lint/Project.h"
 
 #include <functional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,7 +34,9 @@ struct ProgBlock {
   std::vector<ProgPiece> pieces; // EOL excepted
   SourceRange range;             // first to last piece
   bool conditional = false;      // is below an IF within the statements that were asked for
-  bool called = false;           // printed by a routine that the statements call
+  bool called = false;           // printed, all of it, by a routine that the statements call
+  bool open = false;             // the statements end before its EOL
+  std::vector<const compost::Routine*> joined = {}; // that are called in the middle of it
 
   // `G65 P9770 Z{}`: blanks as one, holes as braces, commands as `<SpinOff>`, no sequence word.
   std::string shape() const;
@@ -59,6 +62,19 @@ const std::vector<ProgBlock>& blocksOf(const std::vector<compost::Statement>& st
                                        const compost::Program& prog, const Project& project);
 std::vector<ProgBlock> collectBlocks(const std::vector<compost::Statement>& statements,
                                      const compost::Program& prog, const Project& project);
+
+// Routines that print no whole block alone: what they are called for begins or ends in their callers.
+struct PartRoutines {
+  std::set<const compost::Routine*> begun; // in the middle of a block
+  std::set<const compost::Routine*> called;
+};
+// Computed once a project.
+const PartRoutines& partsOf(const compost::Program& prog, const Project& project);
+PartRoutines findParts(const compost::Program& prog, const Project& project);
+// The blocks of a routine that are its own to judge: those of the routines that it calls are theirs, and a
+// block that is split over several is that of the one that calls them.
+std::vector<const ProgBlock*> ownBlocks(const compost::Routine& routine, const compost::Program& prog,
+                                        const Project& project);
 
 // A branch that is printed for one cycle.
 struct CycleBranch {

@@ -31,11 +31,10 @@ private:
 void check(const Project& project, Report& report) {
   eachRoutine(project, [&](const compost::Program& prog, const compost::Routine& routine) {
     if (prog.hasErrorNodes || !routine.returnRange) return; // told already
-    for (const ProgBlock& block : blocksOf(routine.body, prog, project)) {
-      if (block.called) continue;
-      const std::vector<ProgWord> words = wordsOf(block, project.form);
+    for (const ProgBlock* block : ownBlocks(routine, prog, project)) {
+      const std::vector<ProgWord> words = wordsOf(*block, project.form);
       const bool call = macroCalled(words) != 0;
-      const Arms arms(block);
+      const Arms arms(*block);
       std::map<std::pair<char, std::optional<std::uint32_t>>, const ProgWord*> printed; // the first of each
       for (const ProgWord& word : words) {
         const char address = word.address;

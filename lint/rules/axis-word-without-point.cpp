@@ -56,8 +56,8 @@ void checkProg(const compost::Program& prog, const Project& project, Report& rep
   for (const compost::Item& item : prog.items) {
     const auto* routine = std::get_if<compost::Routine>(&item);
     if (routine == nullptr) continue;
-    for (const ProgBlock& block : blocksOf(routine->body, prog, project))
-      if (!block.called) blocks.push_back(block);
+    for (const ProgBlock* block : ownBlocks(*routine, prog, project))
+      blocks.push_back(*block);
   }
   std::set<char> withPoint;
   for (const ProgBlock& block : blocks)

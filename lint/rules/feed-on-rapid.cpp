@@ -7,9 +7,8 @@ namespace {
 
 void check(const Project& project, Report& report) {
   eachRoutine(project, [&](const compost::Program& prog, const compost::Routine& routine) {
-    for (const ProgBlock& block : blocksOf(routine.body, prog, project)) {
-      if (block.called) continue;
-      const std::vector<ProgWord> words = wordsOf(block, nullptr);
+    for (const ProgBlock* block : ownBlocks(routine, prog, project)) {
+      const std::vector<ProgWord> words = wordsOf(*block, nullptr);
       const ProgWord* rapid = nullptr;
       const ProgWord* feed = nullptr;
       bool other = false;

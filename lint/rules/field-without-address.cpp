@@ -33,15 +33,14 @@ Place placeOf(SourceRange range) {
 void check(const Project& project, Report& report) {
   eachRoutine(project, [&](const compost::Program& prog, const compost::Routine& routine) {
     if (prog.hasErrorNodes || !routine.returnRange) return; // told already
-    for (const ProgBlock& block : blocksOf(routine.body, prog, project)) {
-      if (block.called) continue;
-      const std::vector<ProgWord> words = wordsOf(block, project.form);
+    for (const ProgBlock* block : ownBlocks(routine, prog, project)) {
+      const std::vector<ProgWord> words = wordsOf(*block, project.form);
       if (words.empty()) continue;
       std::set<Place> holes; // that an address takes
       for (const ProgWord& word : words)
         if (word.hole != nullptr) holes.insert(placeOf(word.hole->range));
       Before text;
-      for (const ProgPiece& piece : block.pieces) {
+      for (const ProgPiece& piece : block->pieces) {
         const auto [comment, last] = text;
         text.pass(piece);
         if (piece.field.empty() || comment || holes.contains(placeOf(piece.range))) continue;

@@ -71,8 +71,8 @@ void check(const Project& project, Report& report) {
       for (const ir::Program& program : nc.lowered->programs)
         checkProgram(program, project, report);
   eachRoutine(project, [&](const compost::Program& prog, const compost::Routine& routine) {
-    for (const ProgBlock& block : blocksOf(routine.body, prog, project))
-      if (!block.called) checkBlock(block, project, report);
+    for (const ProgBlock* block : ownBlocks(routine, prog, project))
+      checkBlock(*block, project, report);
   });
 }
 

@@ -51,8 +51,8 @@ void checkBlock(const ProgBlock& block, const Project& project, Report& report) 
 void check(const Project& project, Report& report) {
   eachRoutine(project, [&](const compost::Program& prog, const compost::Routine& routine) {
     if (prog.hasErrorNodes || !routine.returnRange) return; // told already
-    for (const ProgBlock& block : blocksOf(routine.body, prog, project))
-      if (!block.called) checkBlock(block, project, report);
+    for (const ProgBlock* block : ownBlocks(routine, prog, project))
+      checkBlock(*block, project, report);
   });
 }
 
