@@ -74,8 +74,6 @@ ExpressionPtr BlockParser::expression() {
     const std::string_view op = operatorHere({"+", "-", "OR", "XOR"});
     if (op.empty()) break;
     if (!count()) return nullptr;
-    in_.skipBlanks();
-    if (in_.peek() == Reader::kHole && op.size() == 1) warnOfSign(op.front(), in_.position());
     ExpressionPtr right = term();
     if (!right) return nullptr;
     left = make(begin, Operation{std::string(op), std::move(left), std::move(right)});
