@@ -1,4 +1,5 @@
 #include "frontend/gibbs/Walk.h"
+#include "lint/CalledFiles.h"
 #include "lint/MacroNames.h"
 
 #include <algorithm>
@@ -16,7 +17,20 @@ struct Uses {
   std::set<std::string> bounds;   // comes into a comparison or a call of a check together with another field
 };
 
-Uses usesOf(const gibbs::Cycle& cycle) {
+// What the macro that is called takes, where the folder holds it.
+const gibbs::Args* argsOf(const gibbs::CallMacro& call, const gibbs::Cycle& cycle, const Project& project) {
+  const auto* name = call.macro ? std::get_if<gibbs::TextLiteral>(&call.macro->node) : nullptr;
+  const std::string file = name != nullptr ? name->text : call.bareName;
+  const gibbs::Macro* macro = file.empty() ? nullptr : calledMacro(cycle, file, project);
+  const gibbs::Args* out = nullptr;
+  if (macro != nullptr)
+    eachStatement(*macro, [&](const gibbs::Statement& statement) {
+      if (const auto* args = std::get_if<gibbs::Args>(&statement.node)) out = args;
+    });
+  return out;
+}
+
+Uses usesOf(const gibbs::Cycle& cycle, const Project& project) {
   const std::set<std::string> fields = fieldsOf(cycle);
   using Sources = std::map<std::string, std::set<std::string>>;
   Sources values; // of a variable: what it is computed from
@@ -38,7 +52,16 @@ Uses usesOf(const gibbs::Cycle& cycle) {
         const auto* then = branch->then ? std::get_if<gibbs::Assignment>(&branch->then->node) : nullptr;
         if (then != nullptr) from[gibbs::foldCase(then->target.name.text)].insert(reads.begin(), reads.end());
         conditions.push_back(std::move(reads));
-      } else if (std::holds_alternative<gibbs::CallMacro>(statement.node)) {
+      } else if (const auto* call = std::get_if<gibbs::CallMacro>(&statement.node)) {
+        const gibbs::Args* takes = argsOf(*call, cycle, project);
+        for (std::size_t i = 0; takes != nullptr && i < call->arguments.size() && i < takes->names.size();
+             ++i)
+          if (call->arguments[i]) {
+            const std::set<std::string> given = readsOf(*call->arguments[i]);
+            const std::string target = gibbs::foldCase(takes->names[i].name.text);
+            values[target].insert(given.begin(), given.end());
+            from[target].insert(given.begin(), given.end());
+          }
         std::set<std::string> reads;
         gibbs::ownExpressions(statement, [&](const gibbs::Expression& e) { reads.merge(readsOf(e)); });
         conditions.push_back(std::move(reads));
@@ -108,7 +131,7 @@ void check(const Project& project, Report& report) {
     if (branches.empty()) continue;
     const std::set<std::string> computed = computedOnly(*cycle);
     shown = &branches.front();
-    const Uses uses = usesOf(*cycle);
+    const Uses uses = usesOf(*cycle, project);
     std::set<std::string> drawn;
     if (cycle->toolPath)
       for (const NameUse& use : namesOf(*cycle->toolPath, project))
