@@ -50,7 +50,8 @@ struct VerifyPlan {
   // The posted program counts from where the probe is (#5003): it agrees with a path of the CAM, which begins
   // on the retract plane, only from there.
   bool startsOnRetract = false;
-  // It moves to places that the control has computed from what it has measured or keeps.
+  // It moves to places, or sets offsets by words (G10), that the control has computed from what it has
+  // measured or keeps.
   bool computesPlaces = false;
   bool cycleFile = false; // of the cycle language: its own meaning is the source
   bool programs = false;  // macro B against its conversion: fields are variables by number

@@ -68,6 +68,18 @@ SourceRange textRange(const Control& label) {
 
 } // namespace
 
+Box closedBox(const Dialog& dialog, const Control& control) {
+  constexpr int kUsual = 22; // of a dialog without an INPUT
+  Box box = *control.box;
+  if (foldCase(control.kind.text) != "DROPDOWN_NEW") return box;
+  std::optional<int> lowest;
+  for (const Control& other : dialog.controls)
+    if (foldCase(other.kind.text) == "INPUT" && other.box && other.box->height > 0)
+      lowest = std::min(lowest.value_or(other.box->height), other.box->height);
+  box.height = std::min(box.height, lowest.value_or(kUsual));
+  return box;
+}
+
 std::vector<InputLabel> inputLabels(const Dialog& dialog) {
   std::vector<const Control*> labels;
   for (const Control& control : dialog.controls)
@@ -80,11 +92,12 @@ std::vector<InputLabel> inputLabels(const Dialog& dialog) {
     InputLabel made;
     made.input = &input;
     made.variable = *input.variable;
+    const Box box = closedBox(dialog, input);
     Nearest nearest;
     for (const Control* label : labels) {
-      const int rows = sharedRows(*label->box, *input.box);
-      if (rows > 0 && label->box->left < input.box->left)
-        nearest.offer(*label, input.box->left - label->box->left, rows);
+      const int rows = sharedRows(*label->box, box);
+      if (rows > 0 && label->box->left < box.left)
+        nearest.offer(*label, box.left - label->box->left, rows);
     }
     if (const Control* label = nearest.best()) {
       names.insert(label);
@@ -94,7 +107,7 @@ std::vector<InputLabel> inputLabels(const Dialog& dialog) {
     found.push_back(std::move(made));
   }
   for (InputLabel& each : found) {
-    const Box& box = *each.input->box;
+    const Box box = closedBox(dialog, *each.input);
     Nearest nearest;
     for (const Control* label : labels) {
       if (names.contains(label)) continue;

@@ -1,3 +1,4 @@
+#include "frontend/gibbs/Labels.h"
 #include "lint/MacroNames.h"
 
 namespace dotek::lint::rule {
@@ -13,7 +14,7 @@ void check(const Project& project, Report& report) {
     for (const gibbs::Control& control : dialog->controls) {
       const std::string kind = gibbs::foldCase(control.kind.text);
       if (!control.box || &control == window || kind == "DIALOG") continue;
-      const gibbs::Box& box = *control.box;
+      const gibbs::Box box = gibbs::closedBox(*dialog, control);
       // The box of a label is larger than its text more often than not; where it begins, the text begins.
       if (kind == "LABEL" && box.left < window->box->width && box.top < window->box->height) continue;
       const long right = long{box.left} + box.width;

@@ -189,6 +189,12 @@ TEST_CASE("gibbs: names beside inputs") {
   CHECK(of("label 60,20,50,20,\"inside\"\ninput 60,20,40,20,p\nlabel 100,20,9,20,\"right\"\n") ==
         "p=||right;");
   CHECK(of("label 10,40,50,20,\"below\"\ninput 60,20,40,20,p\n") == "p=||;");
+  // a list is as high as its opened list; what is beside the next rows belongs to these
+  const std::string list =
+      "label 10,20,50,20,\"Times\"\ndropdown_new 60,20,40,130,n\nlabel 10,50,50,20,\"Z\"\n";
+  const std::string row = "input 60,50,40,20,z\nlabel 110,50,90,20,\"of the ball\"\n";
+  CHECK(of(list + row) == "n=Times||;z=Z||of the ball;");
+  CHECK(of(list + "label 110,50,90,20,\"of the ball\"\n") == "n=Times||;");
 }
 
 TEST_CASE("gibbs: the folder as one unit") {

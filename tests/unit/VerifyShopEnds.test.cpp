@@ -17,18 +17,17 @@ TEST_CASE("verify: an alarm of the branch keeps its text with the macros of anot
   CHECK_MESSAGE(agrees(verified(skewed)), verified(skewed));
   CHECK(differs(skewed, replaced(good, "\n#3000=105(DETALJ SNED I SKRUVSTYCKE)",
                                  "\n#3000=101(AVSTAND 10 TILL 300 MM)")));
-  Shop floor{"retries", "LS-POCKET-FLOOR", "probeIt", "fusion", "dotek", ""};
-  const std::string fragment = converted(floor);
-  CHECK_MESSAGE(agrees(verified(floor)), verified(floor));
-  CHECK(differs(floor, replaced(fragment, "(FLOOR HIGH)", "(FLOOR DEEP)")));
+  const Shop heights{"chained", "TM.Ecart.Deux", "palpage", "fusion", "dotek", "fanuc-0i-md"};
+  const std::string fragment = converted(heights);
+  CHECK_MESSAGE(agrees(verified(heights)), verified(heights));
+  CHECK(differs(heights, replaced(fragment, "(PIECE MAL POSEE)", "(PIECE BIEN POSEE)")));
 }
 
 TEST_CASE("verify: a bore that is measured until it repeats meets the end of its loop") {
   for (const char* macros : {"inspection-plus", "dotek"}) {
-    Shop hole{"retries", "LS-HOLE-RETRY", "probeIt", "fanuc", macros, "fanuc-31i-b"};
-    hole.host = {{"tool_radius", "3"}}; // the smallest bore takes no other
-    const std::string good = converted(hole);
-    CHECK_MESSAGE(agrees(verified(hole)), verified(hole));
+    const Shop hole{"retries", "LS-HOLE-RETRY", "probeIt", "fanuc", macros, "fanuc-31i-b"};
+    const std::string good = converted(hole), said = verified(hole);
+    CHECK_MESSAGE(("\n" + said).find("\nAGREES") != std::string::npos, said); // one may be undecided
     for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{
              {"GE 3.]GOTO", "GE 2.]GOTO"},                              // once less
              {"IF[ABS[#612-#611] LE", "IF[[#612-#611] LE"},             // each smaller one repeats
