@@ -15,7 +15,7 @@ namespace {
 
 // What else a lowering refuses depends on the target, on values that nobody has given yet, or is a rule of
 // lint.
-constexpr std::array<std::string_view, 19> kCertain = {
+constexpr std::array<std::string_view, 22> kCertain = {
     // macros of a cycle
     diag::DivisionByZero::code,
     diag::DomainError::code,
@@ -24,6 +24,7 @@ constexpr std::array<std::string_view, 19> kCertain = {
     diag::GoesRoundForEver::code,
     diag::CallTooDeep::code,
     diag::MessagePaths::code,
+    diag::ArgsMismatch::code,
     // routines of a Prog
     diag::BooleanAsStatement::code,
     diag::CallsTooDeep::code,
@@ -33,6 +34,8 @@ constexpr std::array<std::string_view, 19> kCertain = {
     diag::AddressTwice::code,
     diag::DigitsBesideValue::code,
     diag::MixedBlock::code,
+    diag::SyntaxError::code,
+    diag::ValueOutOfRange::code,
     diag::TwoFunctions::code,
     diag::DwellForm::code,
     diag::UnexpectedCharacter::code,
