@@ -128,7 +128,8 @@ bool computesPlaces(const ir::Cycle& cycle) {
   for (const ir::CycleStatement& one : cycle.body) {
     bool found = false;
     const bool moves = ir::match(
-        one, [](const ir::OneOf<ir::Move, ir::Measure, ir::CallCycle, ir::OpaqueBlock> auto&) { return true; },
+        one,
+        [](const ir::OneOf<ir::Move, ir::Measure, ir::CallCycle, ir::OpaqueBlock> auto&) { return true; },
         [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Comment, ir::Assign,
                            ir::ProbePower, ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell,
                            ir::Stop, ir::Alarm> auto&) { return false; });

@@ -131,6 +131,21 @@ std::vector<verify::Difference> compareObstructed(std::size_t move, const Distur
   return found;
 }
 
+// It measures what it has measured before.
+bool measuresAgain(const verify::Record& source) {
+  constexpr double kSame = 0.02; // mm
+  const auto placeOf = [](const verify::Measure& measure) {
+    return !measure.nominal.empty() ? measure.nominal.front().point : measure.aim.value_or(measure.end);
+  };
+  const auto& all = source.measures;
+  for (std::size_t i = 0; i < std::min(all.size(), kMost); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      if ((placeOf(all[i]) - placeOf(all[k])).length() <= kSame &&
+          (all[i].start - all[k].start).length() <= kSame)
+        return true;
+  return false;
+}
+
 // Where the source tries again: nothing is found ever after, and what is measured again does not repeat.
 std::vector<verify::Difference> compareRepeated(const verify::Record& source, const verify::Record& ran,
                                                 const DisturbedSides& sides) {
@@ -145,7 +160,7 @@ std::vector<verify::Difference> compareRepeated(const verify::Record& source, co
     found = compareUnder(nothing, sides, "where nothing is ever found");
   // mm; on no limit that somebody would give
   constexpr double kApart[] = {0.3171, 1.0433};
-  const std::size_t measures = std::max(source.searches, source.calls);
+  const std::size_t measures = measuresAgain(source) ? std::max(source.searches, source.calls) : 0;
   for (std::size_t from = 0; from < std::min(measures, kMost) && measures > 1; ++from)
     for (const double by : kApart) {
       if (!found.empty()) return found;

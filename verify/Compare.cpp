@@ -123,7 +123,7 @@ private:
       same = (renumbered() || source_.alarm == target_.alarm) && source_.text == target_.text;
     else if (alarms && rules_.sameProgram && same && source_.alarmKind.empty())
       same = sameOwnAlarm();
-    else if (alarms && same && source_.alarmKind.empty() && target_.alarmKind.empty())
+    else if (alarms && same && renumbered() && target_.alarmKind.empty())
       same = sameOwnText();
     if (!same) {
       add(Aspect::Ending, howItEnds("the source", source_) + ", " + howItEnds("the translation", target_),

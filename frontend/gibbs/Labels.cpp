@@ -96,8 +96,7 @@ std::vector<InputLabel> inputLabels(const Dialog& dialog) {
     Nearest nearest;
     for (const Control* label : labels) {
       const int rows = sharedRows(*label->box, box);
-      if (rows > 0 && label->box->left < box.left)
-        nearest.offer(*label, box.left - label->box->left, rows);
+      if (rows > 0 && label->box->left < box.left) nearest.offer(*label, box.left - label->box->left, rows);
     }
     if (const Control* label = nearest.best()) {
       names.insert(label);

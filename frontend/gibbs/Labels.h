@@ -22,8 +22,8 @@ struct InputLabel {
   SourceRange meaningRange;
 };
 
-// The place of a control as the dialog opens. The height of a DROPDOWN_NEW is that of the opened list; closed it
-// is as high as the lowest INPUT of the dialog.
+// The place of a control as the dialog opens. The height of a DROPDOWN_NEW is that of the opened list; closed
+// it is as high as the lowest INPUT of the dialog.
 Box closedBox(const Dialog& dialog, const Control& control);
 
 // One entry for each input with a variable, in the order of the file. The dialog outlives the result.
