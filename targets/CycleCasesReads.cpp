@@ -13,7 +13,9 @@ namespace dotek::targets {
 namespace {
 
 constexpr double kFirst = 100, kEnd = 1000; // common variables
-constexpr std::uint32_t kInVain = 4;        // cases that come to nothing, until nobody has set the variables
+// Cases that come to nothing, until the variables hold in turn what a shop keeps for certain: the ball's
+// radius, its diameter, or nothing.
+constexpr std::uint32_t kInVain = 2;
 
 bool readsCommon(const ir::Program& program) {
   return std::any_of(program.body.begin(), program.body.end(), [](const ir::ProgramStatement& statement) {
@@ -31,7 +33,7 @@ bool readsCommon(const ir::Program& program) {
 
 void CaseRunner::findReads(Values& values) {
   Posted& posted = *values.posted;
-  if (target_ == nullptr || !readsCommon(posted.file.programs.front())) return;
+  if (!readsCommon(posted.file.programs.front())) return;
   std::vector<const stdlib::MacroSet*> sets;
   if (sourceSet_ != nullptr) sets.push_back(sourceSet_);
   posted.reads = verify::variablesOf(posted.file, *inputs_->sourceControl, sets);
@@ -66,8 +68,15 @@ void CaseRunner::drawVariables(Values& values) {
     if (isGiven(one.number) || values.presets.contains(one.number)) continue;
     verify::Random random(
         verify::Random::sub(drawn.stream, verify::Random::hash(fmt::format("#{}", one.number))));
-    if (random.chance(kNothing) || others_ > kInVain) continue;
     const bool length = one.use == verify::VariableUse::Length || one.use == verify::VariableUse::Size;
+    if (others_ > kInVain) {
+      const std::uint32_t turn = others_ % 4; // the radius twice as often
+      if (length && turn != 0)
+        drawn.variables[one.number] = std::round(radius * (turn == 2 ? 2 : 1) * 1000) / 1000;
+      continue;
+    }
+    // Beside its path the post has what a shop keeps there, or nothing.
+    if (target_ == nullptr || random.chance(kNothing)) continue;
     if (length && random.chance(kBall))
       drawn.variables[one.number] = std::round(radius * random.between(1 - kOff, 1 + kOff) * 1000) / 1000;
     else if (const auto value = verify::drawValue(one, 0, random))

@@ -97,6 +97,7 @@ bool takeEdited(const std::string& path, Translation& translation, Session& sess
       }
     }
   }
+  translation.converted = std::move(translation.text);
   translation.name = path;
   translation.text = *bytes;
   translation.sources = std::move(sources);

@@ -58,7 +58,11 @@ std::string whyNoEvidence(const Record& record, SourceRange& at) {
     if (measure.contacts.empty() || measure.contacts.size() < measure.nominal.size())
       return "a measuring move makes no contact";
   }
-  if (record.measures.empty()) return "nothing is measured";
+  // A protected move that goes on where it meets something is a question: whether a part is there.
+  const bool asks = std::any_of(record.pieces.begin(), record.pieces.end(), [](const Piece& one) {
+    return one.kind == sim::PathKind::Protected && one.goesOn;
+  });
+  if (record.measures.empty() && !asks) return "nothing is measured";
   return "";
 }
 

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
+#include <set>
 
 namespace dotek::backends::fanuc {
 
@@ -76,13 +77,18 @@ private:
     const VariableThere there = variableThere(number, state_.options.sourceControl, state_.control);
     if (!there.number) {
       if (there.onlyKeptOtherwise && isWrittenFirst(number)) return number;
-      state_.refuse<diag::VariableElsewhere>(range, number, there.why);
+      refuseElsewhere(number, range, there.why);
       return std::nullopt;
     }
     if (*there.number != number && state_.reported.insert("variable " + std::to_string(number)).second)
       state_.diagnostics.report<diag::VariableMoved>(range, number, there.what, *there.number,
                                                      state_.control.title);
     return there.number;
+  }
+
+  // Where it is met first: a branch that keeps its values there uses it in most of its blocks.
+  void refuseElsewhere(std::uint32_t number, SourceRange range, const std::string& why) {
+    if (refused_.insert(number).second) state_.refuse<diag::VariableElsewhere>(range, number, why);
   }
 
   // A call that measures, of the same set as the source's, leaves a result there.
@@ -114,7 +120,9 @@ private:
     const auto base = ir::firstNumber(number);
     // Over the offsets of work systems, where they lie as on the source's control.
     if (base && *base >= kFirstSystem && isSettable(state_.control, *base) && sameOffsets()) return;
-    if (!base || *base <= state_.control.locals || !state_.control.isCommon(*base))
+    if (base && state_.options.sourceControl.isCommon(*base) && !state_.control.isCommon(*base))
+      refuseElsewhere(*base, range, variableThere(*base, state_.options.sourceControl, state_.control).why);
+    else if (!base || *base <= state_.control.locals || !state_.control.isCommon(*base))
       state_.refuse<diag::MachineVariableRefused>(range, "[..]", state_.control.title);
     else if (!same() && !holdsVariablesOf(state_.control, state_.options.sourceControl)) {
       if (!sharesVariablesFrom(*base, state_.control, state_.options.sourceControl))
@@ -144,6 +152,7 @@ private:
   const ir::CycleStatement* at_ = nullptr; // of the body; nullptr: of the checks
   std::optional<ir::ProgramFlow> flow_;    // of the body, once it is asked for
   std::map<std::uint32_t, std::vector<bool>> unwritten_;
+  std::set<std::uint32_t> refused_;
 };
 
 bool isSystem(double number) {

@@ -2,6 +2,7 @@
 #include "backends/common/CycleTolerances.h"
 #include "backends/common/CycleTouches.h"
 #include "backends/common/MacroCall.h"
+#include "backends/common/ToolCorrection.h"
 #include "backends/fanuc/OwnCycles.h"
 #include "backends/fanuc/State.h"
 #include "ir/Linear.h"
@@ -296,11 +297,13 @@ void writeCycle(State& state, const ir::CallCycle& given, const ir::Origin& orig
   ir::CallCycle cycle = given;
   CallValues values = valuesFor(state, origin);
   Expected expected(state, origin);
+  const auto along = [&](const ir::CallCycle& of, ir::Axis axis) {
+    const ir::ExpressionPtr at = expected.at(of, axis);
+    return at == nullptr ? nullptr : tidy(at);
+  };
   const std::vector<Tolerance> tolerances =
-      takeTolerances(cycle, state.macros, *signature, [&](const ir::CallCycle& of, ir::Axis axis) {
-        const ir::ExpressionPtr at = expected.at(of, axis);
-        return at == nullptr ? nullptr : tidy(at);
-      });
+      takeTolerances(cycle, state.macros, *signature, along);
+  const auto correction = takeToolCorrection(cycle, state.options.source, *signature, along);
   if (cycle.setting) {
     values.setsSystem = setsByItself(state, cycle, *signature, !tolerances.empty(), origin, expected);
     if (state.failed) return;
@@ -327,6 +330,7 @@ void writeCycle(State& state, const ir::CallCycle& given, const ir::Origin& orig
     alarmIf(state, ir::compare(ir::Relation::Greater, tidy(one.error), one.limit), one.text, compared);
     state.releaseHelpers();
   }
+  if (correction) writeToolCorrection(state, *correction, origin);
   if (!cycle.setting || values.setsSystem) return;
   const ir::OffsetSetting setting{cycle.setting->system, cycle.setting->nominal};
   for (const ir::Axis axis : ir::kAxes)

@@ -1,6 +1,7 @@
 // Cycles by name that no macro carries out (ir/CycleNames.h).
 #pragma once
 
+#include "backends/common/ToolCorrection.h"
 #include "backends/fanuc/State.h"
 #include "ir/CycleNames.h"
 
@@ -15,6 +16,9 @@ void writeSetOffset(State& state, const ir::CallCycle& set, const ir::Origin& or
 
 // A part of a tool offset (kSetTool): a length or radius as a whole into its geometry, the wear becomes 0.
 // Refused: a control whose profile says no such part, a move after a length.
+// After the call: the tool length becomes shorter by a share of the error, in the register that the macro of the
+// source corrects; an offset that the table has not is an alarm.
+void writeToolCorrection(State& state, const ToolCorrection& correction, const ir::Origin& origin);
 void writeSetTool(State& state, const ir::CallCycle& set, const ir::Origin& origin);
 // `left` gets what the table has.
 void writeReadTool(State& state, const std::string& left, ir::ToolPart part, const ir::ExpressionPtr& tool,

@@ -257,15 +257,15 @@ VariableThere variableThere(std::uint32_t number, const Control& from, const Con
   if (meaning->kind == Kind::Modal && !sameGroup(meaning->index, from, to))
     return refused(fmt::format("is {} on {}, and {} keeps other codes there", what, from.title, to.title),
                    what);
-  if (const auto length = lengthIn(from, *meaning); length != lengthIn(to, *meaning))
-    return refused(
-        fmt::format("is {} on {}; whether it holds the length of the tool as well is not the same on {}",
-                    what, from.title, to.title),
-        what);
   const std::optional<std::uint32_t> there = numberOf(to, *meaning);
   if (!there)
     return refused(
         fmt::format("is {} on {}; the profile of {} has no variable for it", what, from.title, to.title),
+        what);
+  if (const auto length = lengthIn(from, *meaning); length != lengthIn(to, *meaning))
+    return refused(
+        fmt::format("is {} on {}; whether it holds the length of the tool as well is not the same on {}",
+                    what, from.title, to.title),
         what);
   return {there, what, "", false};
 }

@@ -2,6 +2,7 @@
 #include "backends/fanuc/TargetVerification.h"
 
 #include "backends/fanuc/TargetAlarms.h"
+#include "backends/fanuc/TargetHeader.h"
 #include "frontend/gibbs/Ast.h"
 #include "sim/machine/Value.h"
 #include "support/Decimal.h"
@@ -60,6 +61,8 @@ void FanucVerification::callOtherwise(const TargetCase& now, const verify::Entry
                                       const verify::Record& ran, TargetRun& out) {
   if (const std::string why = whyListsOther(translation_.text); !why.empty())
     out.differs(verify::Aspect::Ending, why);
+  if (const std::string why = whyHeaderDiffers(translation_.converted, translation_.text); !why.empty())
+    out.differs(verify::Aspect::Variable, why);
   const bool writesZ = ran.ownOffsetOfZ && (now.source == nullptr || !now.source->ownOffsetOfZ);
   for (const verify::BrokenCaller& caller : verify::brokenCallers(control_, writesZ, fixedStarts())) {
     if (caller.ofToolLength && loadsTool(now)) continue;

@@ -1,4 +1,5 @@
 // Parts of a tool offset in the table of the control.
+#include "backends/common/ToolCorrection.h"
 #include "backends/fanuc/OwnCycles.h"
 #include "backends/fanuc/State.h"
 #include "backends/fanuc/Uses.h"
@@ -171,6 +172,41 @@ void writeSetTool(State& state, const ir::CallCycle& set, const ir::Origin& give
                               ? fmt::format("SETS THE GEOMETRY OF A TOOL {}, AND ITS WEAR TO 0", name)
                               : fmt::format("SETS A TOOL {}", name));
   if (isLength(part)) state.remarks.back() += ": GIVE G43 ANEW";
+}
+
+void writeToolCorrection(State& state, const ToolCorrection& correction, const ir::Origin& given) {
+  const ir::ExpressionPtr tool = tidy(correction.tool);
+  const Registers at = registersOf(state.control, ir::ToolPart::Length);
+  const std::optional<int> base = correction.geometry && at.geometry ? at.geometry : at.wear;
+  if (!base) {
+    hasPart(state, ir::ToolPart::Length, given);
+    return;
+  }
+  if (!guardTool(state, tool, given)) return;
+  ir::Origin origin = given;
+  origin.reason = "tool length that the source's macro corrects";
+  const std::uint32_t error = state.helper();
+  if (error == 0) return;
+  writeWait(state, origin);
+  assign(state, fmt::format("#{}", error), tidy(correction.error), origin);
+  const ir::ExpressionPtr off = systemVariable(static_cast<int>(error));
+  std::optional<Mark> within;
+  if (correction.band != nullptr) {
+    within = state.mark();
+    jumpIf(state,
+           ir::compare(ir::Relation::Less, ir::unary(ir::UnaryOp::Absolute, off), tidy(correction.band)),
+           *within, origin);
+  }
+  const ir::ExpressionPtr entry = entryOf(*base, tool);
+  const std::string left = machineText(state, entry, origin);
+  assign(state, left,
+         tidy(ir::binary(ir::BinaryOp::Subtract, ir::machineVariable(entry),
+                         ir::binary(ir::BinaryOp::Multiply, tidy(correction.share), off))),
+         origin);
+  if (within) state.sheet.place(*within);
+  state.releaseHelpers();
+  if (state.reported.insert("corrects a tool").second)
+    state.remarks.push_back("CORRECTS A TOOL LENGTH: GIVE G43 ANEW");
 }
 
 void writeReadTool(State& state, const std::string& left, ir::ToolPart part, const ir::ExpressionPtr& given,

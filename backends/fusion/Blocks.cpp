@@ -48,7 +48,8 @@ std::string numberOf(const ir::PrintedBlock& block) {
   return text.starts_with('N') && end > 1 ? text.substr(0, end) : "";
 }
 
-Line printed(State& state, Texts& texts, const ir::PrintedBlock& block) {
+// `macros`: where they are not the source's.
+Line printed(State& state, Texts& texts, const ir::PrintedBlock& block, MacroBlocks* macros = nullptr) {
   Line line;
   line.numbered = block.numbered;
   line.origin.ranges = {block.range};
@@ -59,8 +60,13 @@ Line printed(State& state, Texts& texts, const ir::PrintedBlock& block) {
       continue;
     }
     if (!isAscii(piece.text)) state.diagnostics.report<diag::FusionNotAscii>(piece.range);
-    line.text.add(piece.text);
+    if (macros == nullptr)
+      line.text.add(piece.text);
+    else
+      macros->piece(line.text, piece.text,
+                    &piece != &block.pieces.back() && (&piece + 1)->picture.has_value(), line.origin);
   }
+  if (macros != nullptr) macros->endBlock(line.origin);
   return line;
 }
 
@@ -182,7 +188,7 @@ void writeBlocks(State& state) {
     std::vector<Text> own;
     if (!macros.block(statements, own)) {
       stands(state, blocks[i].range);
-      lines.push_back(printed(state, texts, blocks[i]));
+      lines.push_back(printed(state, texts, blocks[i], &macros));
       continue;
     }
     // Jumps of other blocks lead here.

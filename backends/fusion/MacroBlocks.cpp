@@ -70,10 +70,12 @@ MacroBlocks::MacroBlocks(State& state, Texts& texts) : state_(state), texts_(tex
 }
 
 bool MacroBlocks::block(const std::vector<const ir::CycleStatement*>& statements, std::vector<Text>& lines) {
+  compared_.clear();
+  replaced_.clear();
   const bool rewritten =
       std::any_of(statements.begin(), statements.end(), [&](const ir::CycleStatement* one) {
         return isMacro(state_, *one) || std::holds_alternative<ir::Move>(one->node) ||
-               (readsResult(*one) && !comparesAlike(*one));
+               (readsResult(*one) && !comparesAlike(*one) && !comparesOthers(*one));
       });
   for (const ir::CycleStatement* one : statements) {
     const ir::Origin& origin = one->origin;

@@ -7,8 +7,10 @@
 #include "ir/Walk.h"
 #include "support/Decimal.h"
 #include "support/messages/Fanuc.h"
+#include "support/messages/Fusion.h"
 
 #include <algorithm>
+#include <charconv>
 
 namespace dotek::backends::fusion {
 
@@ -168,6 +170,46 @@ bool MacroBlocks::comparesAlike(const ir::CycleStatement& statement) {
     }
   });
   return alike;
+}
+
+bool MacroBlocks::comparesOthers(const ir::CycleStatement& statement) {
+  if (!std::holds_alternative<ir::Branch>(statement.node) || state_.options.source == nullptr) return false;
+  const Lasts& before = lasts()[static_cast<std::size_t>(&statement - state_.cycle.body.data())];
+  bool known = !before.empty();
+  ir::eachNode(statement, [&](const ir::Expression& node) {
+    const auto* result = std::get_if<ir::MeasuredResult>(&node.node);
+    if (result == nullptr) return;
+    for (const ir::CycleStatement* measured : before) {
+      const auto* source = measured == nullptr ? nullptr : signatureOf(*state_.options.source, *measured);
+      const FoundResult there =
+          source == nullptr ? FoundResult() : resultAfter(*source, *measured, result->name);
+      known = known && there.result != nullptr && !there.instead &&
+              compared_.emplace(there.result->variable, result->name).first->second == result->name;
+    }
+  });
+  return known;
+}
+
+void MacroBlocks::piece(Text& text, std::string_view printed, bool beforePicture, const ir::Origin& origin) {
+  constexpr std::string_view kDigits = "0123456789";
+  std::size_t done = 0;
+  for (std::size_t at = printed.find('#'); !compared_.empty() && at != std::string_view::npos;
+       at = printed.find('#', at + 1)) {
+    const std::size_t end = std::min(printed.find_first_not_of(kDigits, at + 1), printed.size());
+    std::uint32_t number = 0;
+    std::from_chars(printed.data() + at + 1, printed.data() + end, number);
+    const auto found = compared_.find(number);
+    if (found == compared_.end() || (end == printed.size() && beforePicture)) continue;
+    text.add(std::string(printed.substr(done, at - done)));
+    macroOperand(text, ir::result(found->second), origin);
+    replaced_.insert(number);
+    done = end;
+  }
+  text.add(std::string(printed.substr(done)));
+}
+
+void MacroBlocks::endBlock(const ir::Origin& origin) {
+  if (replaced_.size() < compared_.size()) state_.refuse<diag::FusionResultCompared>(origin.range());
 }
 
 void MacroBlocks::refuseResult(ir::ResultName name, SourceRange range) {

@@ -132,8 +132,14 @@ private:
 class MacroBlocks {
 public:
   MacroBlocks(State& state, Texts& texts);
-  // The lines that stand for the statements of one block; false: the Prog's own text does.
+  // The lines that stand for the statements of one block; false: the Prog's own text does, each piece as
+  // piece() writes it.
   bool block(const std::vector<const ir::CycleStatement*>& statements, std::vector<Text>& lines);
+  // Text of the last block, where results that it compares are those of these macros. `beforePicture`: a
+  // number at the end of the text may go on.
+  void piece(Text& text, std::string_view printed, bool beforePicture, const ir::Origin& origin);
+  // After the pieces of the block: refuses one whose results were not found in its text.
+  void endBlock(const ir::Origin& origin);
   // After the last block: G91 where the source leaves it in force and our moves have written G90; nullptr:
   // no line, else the origin of the line.
   const ir::Origin* putBack(Text& text);
@@ -185,6 +191,8 @@ private:
   // The results that a branch compares are in the same variables after the calls of both sets: its block
   // stays.
   bool comparesAlike(const ir::CycleStatement& statement);
+  // They are in others: noted for piece(). false: which ones the source compares is not known.
+  bool comparesOthers(const ir::CycleStatement& statement);
   // A result that the macros leave in another variable on each of the ways to the block that keeps it: where
   // each way leads straight from its call to that block, the copies stand after the calls.
   void planCopies();
@@ -222,12 +230,14 @@ private:
   // "#581=#135", after the measurement; and the stores of the source that these replace.
   std::map<const ir::CycleStatement*, std::vector<std::string>> copies_;
   std::set<const ir::CycleStatement*> moved_;
-  const ir::Origin* incremental_ = nullptr; // of the G91 that is in force in the source
-  const ir::Origin* opaque_ = nullptr;      // of the copied block that is looked at
-  bool overwritten_ = false;                // by a G90 of ours
-  bool waits_ = false;                      // the next line reads where the axes are
-  bool saysSearch_ = false;                 // that it goes on beyond the source's
-  std::map<std::string, int> alarms_;       // numbers of alarms of ours, by their texts
+  std::map<std::uint32_t, ir::ResultName> compared_; // by the source's variable, in the block at hand
+  std::set<std::uint32_t> replaced_;                 // of these, in its text
+  const ir::Origin* incremental_ = nullptr;          // of the G91 that is in force in the source
+  const ir::Origin* opaque_ = nullptr;               // of the copied block that is looked at
+  bool overwritten_ = false;                         // by a G90 of ours
+  bool waits_ = false;                               // the next line reads where the axes are
+  bool saysSearch_ = false;                          // that it goes on beyond the source's
+  std::map<std::string, int> alarms_;                // numbers of alarms of ours, by their texts
 };
 
 // ---- Properties.cpp ----

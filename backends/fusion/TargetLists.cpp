@@ -8,10 +8,38 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <optional>
+#include <set>
+#include <string_view>
 
 namespace dotek::targets {
 
 namespace fusion = backends::fusion;
+
+namespace {
+
+std::set<std::string> wordsOf(std::string_view text) {
+  std::set<std::string> out;
+  std::string word;
+  for (const char c : std::string(text) + " ") {
+    if ((c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c & 0x80) != 0) {
+      word += c;
+      continue;
+    }
+    // Not `to` and `pa`, which are in any title.
+    if (word.size() > 2 || word.find_first_of("0123456789") != std::string::npos)
+      out.insert(frontend::gibbs::foldCase(word));
+    word.clear();
+  }
+  return out;
+}
+
+std::size_t shared(const std::set<std::string>& words, std::string_view text) {
+  const std::set<std::string> others = wordsOf(text);
+  return static_cast<std::size_t>(std::count_if(
+      words.begin(), words.end(), [&](const std::string& one) { return others.contains(one); }));
+}
+
+} // namespace
 
 void compareLists(const std::map<std::string, std::vector<DialogChoice>>& lists,
                   const fusion::RunResult& result, const std::string& prefix, TargetRun& out) {
@@ -58,11 +86,19 @@ void compareTitles(const std::vector<verify::DrawField>& fields, const project::
     const auto meaning = meanings.find(own);
     if (title == result.titles.end() || (meaning != meanings.end() && meaning->second == title->second))
       continue;
+    // Who edits a title words it otherwise; a title of other words of the dialog is another field's.
+    const std::set<std::string> words = wordsOf(title->second);
+    const std::size_t mine = meaning == meanings.end() ? 0 : shared(words, meaning->second);
     for (const auto& [name, text] : meanings)
-      if (name != own && text == title->second) {
-        out.differs(verify::Aspect::Variable,
-                    fmt::format("the property of `{}` has the title `{}`, which the dialog gives to `{}`",
-                                field.name, text, name));
+      if (name != own && (text == title->second || shared(words, text) > mine)) {
+        out.differs(
+            verify::Aspect::Variable,
+            text == title->second
+                ? fmt::format("the property of `{}` has the title `{}`, which the dialog gives to `{}`",
+                              field.name, text, name)
+                : fmt::format("the title `{}` of the property of `{}` is nearer to what the dialog says of "
+                              "`{}`: `{}`",
+                              title->second, field.name, name, text));
         return;
       }
   }

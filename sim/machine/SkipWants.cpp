@@ -101,6 +101,10 @@ public:
 private:
   Codes codesOf(const ir::NcBlock& block) const {
     Codes out;
+    // Without an axis G53 moves nothing; programs write it to wait for the end of the move.
+    const bool moves = std::any_of(block.words.begin(), block.words.end(), [](const ir::Word& word) {
+      return std::string_view("ABCUVWXYZ").find(word.address) != std::string_view::npos;
+    });
     for (const ir::Word& word : block.words) {
       if (word.address != 'G') continue;
       const double* code = ir::constantValue(word.value);
@@ -116,6 +120,7 @@ private:
       case stdlib::Function::PathMode:
       case stdlib::Function::FeedPerMinute:
       case stdlib::Function::CutterCompOff: break;
+      case stdlib::Function::MachineCoordinates: out.other = out.other || moves; break;
       default: out.other = true;
       }
     }

@@ -184,6 +184,8 @@ bool VendorRun::setTool() {
   const auto* chosen = argument(Role::Tool);
   if (chosen == nullptr) return true;
   const auto number = whole(*value(Role::Tool));
+  if (!number || *number == 0 || static_cast<int>(*number) > control_.variables.toolCount)
+    return meaningless("it is no tool offset of the control", chosen->letter);
   const auto& error = error_[ir::indexOf(ir::Axis::Z)];
   if (!error || size_) return passes("Dotek keeps no offsets of the tool's radius", chosen->letter);
   if (const auto band = value(Role::NullBand); band && std::abs(*error) < *band) return true;
@@ -198,8 +200,7 @@ bool VendorRun::setTool() {
     return passes("whether it corrects the wear or the geometry is in no source", chosen->letter);
   const bool geometry = set_.probing.toolLength == Register::Geometry && v.toolGeometry;
   const auto& firstOffset = geometry ? v.toolGeometry : v.toolWear;
-  if (!number || *number == 0 || static_cast<int>(*number) > v.toolCount || !firstOffset)
-    return meaningless("it is no tool offset of the control", chosen->letter);
+  if (!firstOffset) return meaningless("it is no tool offset of the control", chosen->letter);
   const std::uint32_t variable = static_cast<std::uint32_t>(*firstOffset) + *number;
   const auto before = machine_.read(variable);
   if (!before || !machine_.writeMeasured(variable, *before - *share * *error)) return false;

@@ -50,6 +50,11 @@ TEST_CASE("safe moves: the IF alarms with a contact, that of a touch without one
   CHECK(safeIn(down + "IF[#5043GT#26+0.01]GOTO9\n") == "1");
   // By a way of its own to the alarm, down in the text or with a move away.
   CHECK(safeIn(down + "IF[#5063LE#26+0.01]GOTO8\nM99\nN8G0Z50.\nGOTO9\n") == "");
+  const std::string left = "G90G0X15.\nG31X-4.F400.\nG53\n", tail = "N8G90G0Z20.\nM61\n#3000=70(NONE)\n";
+  CHECK(safeIn(left + "IF[ABS[#5061-[-4.]]LT.005]GOTO8\nGOTO7\n" + tail + "N7\n") == "");
+  CHECK(safeIn(left +
+               "IF[ABS[#5061-[-4.]]LT.005]GOTO8\nG91G1X-[-1.*1.]F1000.\nG90G31X-4.F30.\n#1=#5061\nGOTO7\n" +
+               tail + "N7\n") == "");
   // From a start that a variable holds, by steps.
   CHECK(safeIn("#2=#5042\nG91G31Y-12.F200\nG90\nIF[#5062LE#2-11.99]GOTO9\n") == "");
   CHECK(safeIn("#2=#5042\nG91G31Y-12.F200\nG90\nIF[#5062GT#2-11.99]GOTO9\n") == "2");

@@ -53,4 +53,62 @@ TEST_CASE("verify: a height that the operator reads before it sets the offset") 
   CHECK(differs(step, replaced(later, set, set + line)));
 }
 
+TEST_CASE("verify: a protected move that asks whether a part is there") {
+  for (const char* macros : {"inspection-plus", "dotek"}) {
+    const Shop part{"retries", "LS-PART-CHECK", "probeIt", "fanuc", macros, "fanuc-31i-b"};
+    const std::string good = converted(part);
+    CHECK_MESSAGE(agrees(verified(part)), verified(part));
+    for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{
+             {"[#148 EQ 7.]", "[#148 NE 7.]"}, // an alarm with a part
+             {"\n#3000=101(NO PART IN VISE)", "\n#3000=100(ALLOW LOW IS 0.5 TO 8 MM)"}, // another alarm
+             {"Z#28 F500. M1", "Z#28 F500."}}) {                                        // no question
+      CAPTURE(from);
+      CHECK(differs(part, replaced(good, from, to)));
+    }
+  }
+}
+
+TEST_CASE("verify: a size that is computed with the shop's variable of the ball meets its limits") {
+  for (const char* macros : {"", "dotek"}) {
+    const Shop bore{"loops", "WT.Otwor", "sondaRen", "fanuc", macros, "fanuc-31i-b"};
+    const std::string good = converted(bore);
+    CHECK_MESSAGE(agrees(verified(bore)), verified(bore));
+    CHECK(differs(bore, replaced(good, "+2.*#700", "-2.*#700")));
+  }
+}
+
+TEST_CASE("verify: the header of a translation says what its arguments are") {
+  const Shop part{"retries", "LS-PART-CHECK", "probeIt", "fanuc", "inspection-plus", "fanuc-31i-b"};
+  const std::string good = converted(part);
+  for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{
+           {"GIVE    0.5 TO 8", "3       0.5 TO 8"},       // a default that it has not
+           {"0.5 TO 8 ALLOW", "0.5 TO 9 ALLOW"},           // another range
+           {"A #1  ZNOM      MM ", "A #1  ZNOM      DEG"}, // another unit
+           {"TOP Z, WHERE THE STOCK TOP)\n(                                      SHOULD BE)",
+            "ALLOW LOW, LOWER THAN THIS: NO)\n(                                      PART)"}, // of another
+                                                                                              // one
+           {"(CALL: G65 P8000 A0. B3. ", "(CALL: G65 P8000 A0. "}}) { // a call that it refuses
+    CAPTURE(from);
+    CHECK(differs(part, replaced(good, from, to)));
+  }
+  const std::string reworded = replaced(good, "TOP Z, WHERE THE STOCK TOP", "TOP OF THE STOCK, WHERE IT");
+  CHECK(agrees(verified(part, reworded)));
+}
+
+TEST_CASE("Fusion: a branch that compares what the macros of another set leave elsewhere") {
+  const Shop webs{"results", "WF-WEB-PAIR", "probing", "fusion", "dotek", "fanuc-31i-b"};
+  const std::string good = converted(webs);
+  CHECK(good.find("\"IF[ABS[[#138-[\" + WXText + \"]]]GT\"") != std::string::npos);
+  CHECK_MESSAGE(agrees(verified(webs)), verified(webs));
+  CHECK(differs(webs, replaced(good, "[#138-[\" + WXText", "[#138-[\" + WYText")));
+}
+
+TEST_CASE("Fusion: a title with the words of another field") {
+  const Shop step{"classes", "SG.Steg.Hojd", "matcykel", "fusion", "inspection-plus", "fanuc-31i-b"};
+  const std::string good = converted(step);
+  CHECK_MESSAGE(agrees(verified(step)), verified(step));
+  CHECK(differs(step, replaced(good, "\"Tolerans, pa steget\"", "\"Steghojd, pa ritning\"")));
+  CHECK(agrees(verified(step, replaced(good, "\"Tolerans, pa steget\"", "\"Tolerans for steget\""))));
+}
+
 } // namespace dotek::tests

@@ -1,0 +1,126 @@
+#include "backends/fanuc/TargetHeader.h"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+#include <optional>
+#include <set>
+#include <vector>
+
+namespace dotek::targets {
+
+namespace {
+
+constexpr std::array<std::string_view, 4> kTitles = {" UNIT", " DEFAULT", " RANGE", " MEANING"};
+constexpr std::array<std::string_view, 3> kSays = {"unit", "default", "range"};
+
+struct Row {
+  std::string key; // "X #24 XP"
+  char letter = 0;
+  std::array<std::string, 4> cells;
+};
+
+std::string trimmed(std::string_view text) {
+  const std::size_t begin = text.find_first_not_of(' ');
+  if (begin == std::string_view::npos) return "";
+  return std::string(text.substr(begin, text.find_last_not_of(' ') + 1 - begin));
+}
+
+std::string oneSpace(std::string_view text) {
+  std::string out;
+  for (const char c : trimmed(text))
+    if (c != ' ' || out.back() != ' ') out += c;
+  return out;
+}
+
+std::vector<std::string_view> commentsOf(std::string_view program) {
+  std::vector<std::string_view> out;
+  for (std::size_t at = 0; at < program.size();) {
+    const std::size_t end = std::min(program.find('\n', at), program.size());
+    std::string_view line = program.substr(at, end - at);
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    if (line.size() > 2 && line.front() == '(' && line.back() == ')')
+      out.push_back(line.substr(1, line.size() - 2));
+    at = end + 1;
+  }
+  return out;
+}
+
+// Cells begin where the titles of their columns do; lines that go on have only a meaning.
+std::vector<Row> rowsOf(std::string_view program) {
+  std::vector<Row> out;
+  std::optional<std::array<std::size_t, 4>> columns;
+  for (const std::string_view line : commentsOf(program)) {
+    if (!columns) {
+      std::array<std::size_t, 4> found{};
+      for (std::size_t i = 0; i < kTitles.size(); ++i)
+        found[i] = line.find(kTitles[i]);
+      if (trimmed(line).starts_with("NAME ") && std::is_sorted(found.begin(), found.end()) &&
+          found.back() != std::string_view::npos)
+        columns = found;
+      continue;
+    }
+    const auto cell = [&](std::size_t i) {
+      const std::size_t begin = (*columns)[i] + 1;
+      const std::size_t end = i + 1 < columns->size() ? (*columns)[i + 1] : line.size();
+      return begin < line.size() ? trimmed(line.substr(begin, end - std::min(begin, end))) : std::string();
+    };
+    const std::string key = oneSpace(line.substr(0, (*columns)[0]));
+    if (key.empty() && !out.empty()) {
+      out.back().cells.back() += (out.back().cells.back().empty() ? "" : " ") + cell(3);
+      continue;
+    }
+    if (key.size() < 4 || key[1] != ' ' || key[2] != '#') break;
+    out.push_back({key, key.front(), {cell(0), cell(1), cell(2), cell(3)}});
+  }
+  return out;
+}
+
+// Of "CALL: G65 P8000 A0. B3.", without the values.
+std::string lettersOfCall(std::string_view program) {
+  constexpr std::string_view kCall = "CALL: ";
+  std::string out;
+  bool goesOn = false;
+  for (const std::string_view line : commentsOf(program)) {
+    if (!goesOn && !line.starts_with(kCall)) continue;
+    std::string_view rest = goesOn ? line : line.substr(kCall.size());
+    const std::string words = oneSpace(rest);
+    // A call that needs two lines has only words on the second.
+    const bool call = std::all_of(words.begin(), words.end(), [&](char c) {
+      return (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == ' ' || c == '.' || c == '-';
+    });
+    if (goesOn && (!call || words.find_first_of("0123456789") == std::string::npos)) break;
+    for (std::size_t i = 0; i < words.size(); ++i)
+      if (words[i] >= 'A' && words[i] <= 'Z' && (i == 0 || words[i - 1] == ' ')) out += words[i];
+    goesOn = true;
+  }
+  return out;
+}
+
+} // namespace
+
+std::string whyHeaderDiffers(std::string_view converted, std::string_view edited) {
+  const std::vector<Row> meant = rowsOf(converted);
+  for (const Row& row : rowsOf(edited)) {
+    const auto same =
+        std::find_if(meant.begin(), meant.end(), [&](const Row& one) { return one.key == row.key; });
+    if (same == meant.end()) continue;
+    for (std::size_t i = 0; i < kSays.size(); ++i)
+      if (row.cells[i] != same->cells[i])
+        return fmt::format("the header gives `{}` as the {} of {}, where it is `{}`", row.cells[i], kSays[i],
+                           row.letter, same->cells[i]);
+    const std::string& meaning = row.cells.back();
+    if (meaning.empty() || meaning == same->cells.back()) continue;
+    for (const Row& other : meant)
+      if (other.key != row.key && other.cells.back() == meaning)
+        return fmt::format("the header gives the meaning of {} to {}: `{}`", other.letter, row.letter,
+                           meaning);
+  }
+  const std::string letters = lettersOfCall(edited), own = lettersOfCall(converted);
+  if (!letters.empty() && !own.empty() &&
+      std::set(letters.begin(), letters.end()) != std::set(own.begin(), own.end()))
+    return fmt::format("the call in the header has the letters {} instead of {}", letters, own);
+  return "";
+}
+
+} // namespace dotek::targets
