@@ -38,7 +38,7 @@ bool mayFailAssigning(const CycleStatement& statement) {
 }
 
 // Variables whose value reaches anything but assignments to variables that are not needed themselves.
-std::vector<bool> neededVariables(const Cycle& cycle) {
+std::vector<bool> neededVariables(const Cycle& cycle, const std::set<VariableId>& read) {
   std::vector<bool> needed(cycle.variables.size());
   std::vector<std::vector<VariableId>> sources(cycle.variables.size()); // read to assign each variable
   std::vector<VariableId> open;
@@ -47,6 +47,8 @@ std::vector<bool> neededVariables(const Cycle& cycle) {
     needed[id] = true;
     open.push_back(id);
   };
+  for (const VariableId id : read)
+    need(id);
   for (const auto* list : {&cycle.checks, &cycle.body}) {
     for (const CycleStatement& statement : *list) {
       const auto* set = std::get_if<Assign>(&statement.node);
@@ -70,8 +72,8 @@ std::vector<bool> neededVariables(const Cycle& cycle) {
   return needed;
 }
 
-bool removeDeadAssignments(Cycle& cycle) {
-  const std::vector<bool> needed = neededVariables(cycle);
+bool removeDeadAssignments(Cycle& cycle, const std::set<VariableId>& read) {
+  const std::vector<bool> needed = neededVariables(cycle, read);
   bool changed = false;
   for (auto* list : {&cycle.checks, &cycle.body}) {
     changed |=
@@ -134,7 +136,7 @@ void fold(Cycle& cycle, const std::map<VariableId, double>& values, const FoldOp
   foldList(cycle, cycle.body, afterChecks ? *afterChecks : rest, options);
 
   for (int round = 0; round < kMostRounds; ++round) {
-    bool changed = removeDeadAssignments(cycle);
+    bool changed = removeDeadAssignments(cycle, options.read);
     changed |= removeJumps(cycle.checks);
     changed |= removeJumps(cycle.body);
     if (!changed) break;

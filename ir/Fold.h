@@ -4,6 +4,7 @@
 #include "ir/Cycle.h"
 
 #include <map>
+#include <set>
 
 namespace dotek::ir {
 
@@ -22,6 +23,7 @@ ConditionPtr simplify(const ConditionPtr& condition);
 struct FoldOptions {
   bool unroll = false;
   std::uint32_t maxSteps = 100000; // of unrolling; more: the loop stays
+  std::set<VariableId> read = {};  // beside checks and body, by a text that is printed: assigned as before
 };
 void fold(Cycle& cycle, const std::map<VariableId, double>& values, const FoldOptions& options = {});
 

@@ -54,6 +54,23 @@ ir::ExpressionPtr longerTravel(const ir::ExpressionPtr& travel, const ir::Expres
   return ir::binary(ir::BinaryOp::Multiply, travel, times, travel->range);
 }
 
+ir::ExpressionPtr awayAlong(const ir::CallCycle& cycle, ir::Axis axis) {
+  if (cycle.cycle != stdlib::intentName(stdlib::Intent::AngledSurface) || axis == ir::Axis::Z) return nullptr;
+  ir::ExpressionPtr angle, distance;
+  for (const ir::CycleArgument& one : cycle.arguments) {
+    if (one.parameter == stdlib::roleName(stdlib::ArgumentRole::Direction)) angle = one.value;
+    if (one.parameter == stdlib::roleName(stdlib::ArgumentRole::Distance)) distance = one.value;
+  }
+  if (angle == nullptr || distance == nullptr) return nullptr;
+  const ir::UnaryOp op = axis == ir::Axis::X ? ir::UnaryOp::Cosine : ir::UnaryOp::Sine;
+  return ir::binary(ir::BinaryOp::Multiply, distance, ir::unary(op, angle));
+}
+
+ir::ExpressionPtr awayFrom(const ir::ExpressionPtr& position, const ir::CallCycle& cycle, ir::Axis axis) {
+  const ir::ExpressionPtr away = position == nullptr ? nullptr : awayAlong(cycle, axis);
+  return away == nullptr ? position : ir::binary(ir::BinaryOp::Add, position, away);
+}
+
 ir::ExpressionPtr overtravelOf(const stdlib::MacroSet* macros, ir::Axis axis) {
   if (macros == nullptr) return nullptr;
   const auto& facts = macros->probing;

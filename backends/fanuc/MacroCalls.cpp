@@ -179,7 +179,7 @@ ir::ExpressionPtr expectedAt(State& state, const ir::CallCycle& cycle, ir::Axis 
   const auto target = std::find_if(cycle.arguments.begin(), cycle.arguments.end(), [&](const auto& one) {
     return one.frame && one.parameter.back() == "xyz"[ir::indexOf(axis)];
   });
-  if (target == cycle.arguments.end()) return workPosition(state, axis);
+  if (target == cycle.arguments.end()) return awayFrom(workPosition(state, axis), cycle, axis);
   return place(state, {target->value, *target->frame, nullptr}, axis, ir::Frame::Work, origin.range());
 }
 
@@ -195,7 +195,8 @@ public:
   ir::ExpressionPtr at(const ir::CallCycle& cycle, ir::Axis axis) {
     ir::ExpressionPtr& known = known_[ir::indexOf(axis)];
     if (known == nullptr)
-      known = isAtPosition(cycle, axis) ? read(axis) : expectedAt(state_, cycle, axis, origin_);
+      known = isAtPosition(cycle, axis) ? awayFrom(read(axis), cycle, axis)
+                                        : expectedAt(state_, cycle, axis, origin_);
     return known;
   }
 

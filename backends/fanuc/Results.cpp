@@ -165,7 +165,7 @@ ir::ExpressionPtr expectedOf(State& state, const ir::CycleStatement& measured, s
     if (axis && one.frame && one.parameter.back() == "xyz"[ir::indexOf(*axis)])
       return place(state, {one.value, *one.frame, nullptr}, *axis, ir::Frame::Work, measured.origin.range());
   }
-  return axis ? workPosition(state, *axis) : nullptr;
+  return axis ? awayFrom(workPosition(state, *axis), *cycle, *axis) : nullptr;
 }
 
 // Each of the measurements keeps the result in one local, where they leave it in several variables.

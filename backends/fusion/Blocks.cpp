@@ -1,6 +1,7 @@
 // Blocks: texts of values first, then lines.
 #include "backends/common/ToolLength.h"
 #include "backends/fusion/State.h"
+#include "ir/Walk.h"
 #include "ir/Fold.h"
 #include "support/Decimal.h"
 #include "support/messages/Fanuc.h"
@@ -70,6 +71,16 @@ Line printed(State& state, Texts& texts, const ir::PrintedBlock& block, MacroBlo
   return line;
 }
 
+// No number of digits holds it; that some are left out is nobody's mistake.
+bool isIrrational(const ir::ExpressionPtr& value) {
+  bool found = false;
+  ir::eachNode(value, [&](const ir::Expression& node) {
+    const auto* unary = std::get_if<ir::Unary>(&node.node);
+    found = found || (unary != nullptr && (unary->op == ir::UnaryOp::Sine || unary->op == ir::UnaryOp::Cosine));
+  });
+  return found;
+}
+
 // The block is printed with every word that it has.
 void stands(State& state, SourceRange block) {
   std::erase_if(state.diagnostics.all(), [&](const Diagnostic& one) {
@@ -132,7 +143,7 @@ void Texts::picture(Text& text, const ir::PrintedPiece& piece, SourceRange block
   text.addExpression(known->second);
 }
 
-void Texts::number(Text& text, const ir::ExpressionPtr& given, const ir::Origin& origin) {
+void Texts::number(Text& text, const ir::ExpressionPtr& given, const ir::Origin& origin, bool fine) {
   const ir::ExpressionPtr value = ir::simplify(given);
   const SourceRange range = value->range.hasPlace() ? value->range : origin.range();
   if (const double* constant = ir::constantValue(value)) {
@@ -148,18 +159,21 @@ void Texts::number(Text& text, const ir::ExpressionPtr& given, const ir::Origin&
     return;
   }
   const std::string expression = valueText(state_, value, range);
-  const auto [known, fresh] = known_.emplace(expression, "");
+  const bool rounds = isIrrational(value);
+  const Helper helper = fine && rounds ? Helper::Fine : Helper::Number;
+  const auto [known, fresh] = known_.emplace((helper == Helper::Fine ? "fine " : "") + expression, "");
   if (fresh) {
     const auto* use = std::get_if<ir::VariableUse>(&value->node);
     guardArithmetic(state_, value, origin);
     known->second = state_.names.take(use != nullptr ? expression + "Text" : std::string("text"));
     const std::string& name = known->second;
-    state_.script.add("var " + name + " = " + state_.helper(Helper::Number) + "(" + expression + ");",
+    state_.script.add("var " + name + " = " + state_.helper(helper) + "(" + expression + ");",
                       origin);
     state_.errorIf(name + " === null", expression + " has too many digits for the control", origin);
-    state_.script.add(state_.helper(Helper::Loses) + "(" + quoted(expression) + ", " + expression +
-                          ", Number(" + name + "));",
-                      origin);
+    if (!rounds)
+      state_.script.add(state_.helper(Helper::Loses) + "(" + quoted(expression) + ", " + expression +
+                            ", Number(" + name + "));",
+                        origin);
   }
   text.addExpression(known->second);
 }

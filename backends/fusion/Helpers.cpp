@@ -16,7 +16,7 @@ struct HelperText {
 // What the names of shared functions begin with.
 constexpr std::string_view kShared = "dotekShared";
 
-constexpr std::array<HelperText, 23> kHelpers = {{
+constexpr std::array<HelperText, 24> kHelpers = {{
     {Helper::Given, "given",
      R"(// The decimal that was typed: a job keeps numbers in 32 bits, so 5.08 arrives as 5.079999923706055.
 function PREFIX_given(value) {
@@ -116,6 +116,18 @@ function PREFIX_number(value) {
     return null;
   }
   return PREFIX_format.format(value);
+}
+)"},
+    {Helper::Fine, "fine",
+     R"(// A value in a formula of the control that no number of digits holds.
+var PREFIX_fineFormat = createFormat({decimals: 6, forceDecimal: true});
+
+// Text of the value; null where the control has not digits enough.
+function PREFIX_fine(value) {
+  if (!(Math.abs(value) < LIMIT)) {
+    return null;
+  }
+  return PREFIX_fineFormat.format(value);
 }
 )"},
     {Helper::Loses, "warnOfDigits", R"(// Says where what is printed is another value than the one given.

@@ -29,7 +29,7 @@ void MacroBlocks::cycle(const ir::CallCycle& given, const ir::Origin& origin, st
     for (const ir::CycleArgument& one : of.arguments)
       if (one.frame && one.parameter.back() == "xyz"[ir::indexOf(axis)])
         return place({one.value, *one.frame, nullptr}, axis, ir::Frame::Work, origin);
-    return at_[ir::indexOf(axis)].value;
+    return awayFrom(at_[ir::indexOf(axis)].value, of, axis);
   };
   std::vector<Tolerance> tolerances;
   if (state_.options.control.ifThen) tolerances = takeTolerances(call, macros, *signature, expects);
@@ -52,7 +52,7 @@ void MacroBlocks::cycle(const ir::CallCycle& given, const ir::Origin& origin, st
                                               "the expected one");
         continue;
       }
-      if (nominal == nullptr) nominal = takesSystem ? at_[ir::indexOf(axis)].value : expects(call, axis);
+      if (nominal == nullptr) nominal = takesSystem ? awayFrom(at_[ir::indexOf(axis)].value, call, axis) : expects(call, axis);
       if (nominal == nullptr)
         state_.refuse<diag::StartUnknown>(origin.range(), std::string(1, ir::letterOf(axis)));
     }
@@ -71,7 +71,7 @@ void MacroBlocks::cycle(const ir::CallCycle& given, const ir::Origin& origin, st
     }
   }
   for (const ir::Axis axis : ir::kAxes) {
-    expected_[ir::indexOf(axis)] = at_[ir::indexOf(axis)];
+    expected_[ir::indexOf(axis)].value = awayFrom(at_[ir::indexOf(axis)].value, call, axis);
     for (const ir::CycleArgument& one : call.arguments)
       if (one.frame && one.parameter.back() == "xyz"[ir::indexOf(axis)])
         expected_[ir::indexOf(axis)].value =

@@ -253,7 +253,7 @@ bool MacroBlocks::errorText(ir::ResultName name, const stdlib::MacroSignature& s
   const stdlib::MacroResult* found = findResult(signature, measured);
   if (found == nullptr || !found->documented || expected == nullptr) return false;
   text.add("#" + std::to_string(found->variable) + "-[");
-  texts_.number(text, expected, origin);
+  texts_.number(text, expected, origin, true);
   text.add("]");
   return true;
 }

@@ -149,7 +149,7 @@ void MacroBlocks::macro(Text& text, const ir::ExpressionPtr& value, const ir::Or
     text.add(numberText(Decimal::of(*known).rounded(kMacroDecimals).value()));
     return;
   }
-  if (!needsControl(value)) return texts_.number(text, value, origin);
+  if (!needsControl(value)) return texts_.number(text, value, origin, true);
   const auto refuse = [&] {
     state_.refuse<diag::FusionRunTime>(value->range.hasPlace() ? value->range : origin.range());
   };

@@ -20,6 +20,7 @@ enum class Helper : std::uint8_t {
   Picture, // text of a value in a picture
   Shown,   // value that a picture prints
   Number,  // text of a value in the fixed format
+  Fine,    // the same with six decimals
   Loses,   // a warning where the text says another value
   Comment, // a comment as the post writes it
   Truncate,
@@ -119,7 +120,8 @@ public:
   // The variable that holds the text of a variable in a picture; of a fixed one the text, quoted by `add`.
   void picture(Text& text, const ir::PrintedPiece& piece, SourceRange block);
   // The text of a value in the fixed format: three decimals, always a point.
-  void number(Text& text, const ir::ExpressionPtr& value, const ir::Origin& origin);
+  // `fine`: in a formula of the control, with six decimals where no number of digits holds the value.
+  void number(Text& text, const ir::ExpressionPtr& value, const ir::Origin& origin, bool fine = false);
 
 private:
   State& state_;

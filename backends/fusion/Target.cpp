@@ -159,7 +159,11 @@ private:
     backends::refuseNoLength(lowered.cycle, lowered.fixed, *inputs.sourceControl,
                              inputs.control ? *inputs.control : *inputs.sourceControl,
                              session_.diagnostics());
-    ir::fold(lowered.cycle, lowered.fixed);
+    ir::FoldOptions folding;
+    for (const ir::PrintedBlock& block : lowered.printed)
+      for (const ir::PrintedPiece& piece : block.pieces)
+        if (piece.picture) folding.read.insert(piece.variable);
+    ir::fold(lowered.cycle, lowered.fixed, folding);
     fusion::EmitOptions emit{*inputs.sourceControl,
                              *macros,
                              foreign,
