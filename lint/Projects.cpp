@@ -116,13 +116,13 @@ Project& Projects::begin(const Settings& settings) {
   Project& project = projects_.emplace_back(
       Project{session.sources(), session.limits(), session.gibbsKeywords(), session.compostKeywords()});
   const bool blocks = !compilation_.progs().empty() || !compilation_.programs().empty();
-  if (blocks) project.macroSets = session.macroSets();
   if (inputs_->form) {
     project.form = &forms_.emplace_back(*inputs_->form);
     if (!project.form->control.empty())
       project.postControl = session.control(project.form->control, settings.probe);
   }
   project.control = control;
+  if (blocks) project.macroSets = session.macroSets(control != nullptr ? control : project.postControl);
   project.analyses = std::make_shared<Analyses>();
   const dotek::project::CommonOptions& options = session.options();
   project.fields = options.field;

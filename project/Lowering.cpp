@@ -169,7 +169,7 @@ void Lowering::applySets(FieldTable& fields, std::set<std::string>& usedSets) {
 
 bool Lowering::branch(const compost::Routine& routine, FieldTable& fields) {
   std::vector<const stdlib::MacroSet*> sets;
-  for (const stdlib::MacroSet& set : session_.macroSets())
+  for (const stdlib::MacroSet& set : session_.macroSets(&*inputs_.sourceControl))
     sets.push_back(&set);
   const compost::LowerSettings settings{
       session_.sources(),
@@ -199,7 +199,9 @@ bool Lowering::branch(const compost::Routine& routine, FieldTable& fields) {
     session_.diagnostics().report<diag::BehindAlarm>(cycle().body[i].origin.range());
     break;
   }
-  out_.macros = lowered->macros;
+  out_.macros = lowered->macros == nullptr
+                    ? nullptr
+                    : session_.macroSet(lowered->macros->name, &*inputs_.sourceControl);
   out_.printed = std::move(lowered->printed);
   return true;
 }

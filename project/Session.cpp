@@ -44,16 +44,24 @@ void Session::takeProbeCodes(const stdlib::ProbeCodes& codes) {
   probeCodes_ = stdlib::merged(probeCodes_, codes);
 }
 
-const std::vector<stdlib::MacroSet>& Session::macroSets() {
-  if (macroSets_) return *macroSets_;
-  macroSets_.emplace();
-  for (const stdlib::DataFile* file : data_.list("macros"))
-    if (auto set = stdlib::MacroSet::load(data_, file->name)) macroSets_->push_back(std::move(*set));
-  return *macroSets_;
+const std::vector<stdlib::MacroSet>& Session::macroSets(const stdlib::Control* control) {
+  const stdlib::MacroPackage* const package =
+      control == nullptr || !control->package ? nullptr : &*control->package;
+  const auto [at, fresh] =
+      macroSets_.try_emplace(package == nullptr ? "" : package->set + "\n" + package->title);
+  if (!fresh) return at->second;
+  for (const stdlib::DataFile* file : data_.list("macros")) {
+    auto set = stdlib::MacroSet::load(data_, file->name);
+    if (!set) continue;
+    at->second.push_back(package != nullptr && set->name == package->set ? stdlib::packaged(*set, *package)
+                                                                         : std::move(*set));
+  }
+  return at->second;
 }
 
-const stdlib::MacroSet* Session::macroSet(const std::string& name) {
-  const std::vector<stdlib::MacroSet>& sets = macroSets();
+const stdlib::MacroSet* Session::macroSet(const std::string& name, const stdlib::Control* control) {
+  const bool packaged = control != nullptr && control->package && control->package->set == name;
+  const std::vector<stdlib::MacroSet>& sets = macroSets(packaged ? control : nullptr);
   const auto found =
       std::find_if(sets.begin(), sets.end(), [&](const stdlib::MacroSet& set) { return set.name == name; });
   return found == sets.end() ? nullptr : &*found;

@@ -40,9 +40,11 @@ public:
   // later.
   const stdlib::ProbeCodes& probeCodes() const { return probeCodes_; }
   void takeProbeCodes(const stdlib::ProbeCodes& codes);
-  // All sets of probing macros, by name.
-  const std::vector<stdlib::MacroSet>& macroSets();
-  const stdlib::MacroSet* macroSet(const std::string& name); // nullptr: there is none
+  // All sets of probing macros, by name; one that the control has with other variables as it has it. Without
+  // a control as their data states them. Two controls that have the same ones get the same objects.
+  const std::vector<stdlib::MacroSet>& macroSets(const stdlib::Control* control = nullptr);
+  // nullptr: there is none.
+  const stdlib::MacroSet* macroSet(const std::string& name, const stdlib::Control* control = nullptr);
   // nullopt with a diagnostic where there is no form of this name.
   std::optional<stdlib::Form> form(const std::string& name);
 
@@ -79,7 +81,7 @@ private:
   std::optional<stdlib::ComPostKeywords> compost_;
   std::map<std::pair<std::string, stdlib::ProbeCodes>, std::optional<stdlib::Control>> controls_;
   stdlib::ProbeCodes probeCodes_;
-  std::optional<std::vector<stdlib::MacroSet>> macroSets_;
+  std::map<std::string, std::vector<stdlib::MacroSet>> macroSets_; // by the package of the control; "": none
   std::map<std::string, std::optional<FileId>> read_;
   std::map<std::string, SettingsFile> settings_;
   std::vector<std::string> inputRoots_;

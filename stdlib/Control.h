@@ -238,6 +238,16 @@ struct PmcWindow {
   std::uint32_t address = 0, byte = 0, word = 0, doubleWord = 0; // a variable that is missing: 0
 };
 
+// The macros of a set as the maker of the control delivers them: the same calls, other variables.
+struct MacroPackage {
+  std::string set; // of the numbers that it is delivered with elsewhere
+  std::string title;
+  std::uint32_t shift = 0; // added to #100 to #149: inputs and results
+  std::uint32_t calibrationFirst = 0,
+                calibrationLast = 0;      // of the stylus, in place of #500 and the following
+  std::uint32_t radiusX = 0, radiusY = 0; // of the ball, among them
+};
+
 struct Control {
   std::string name;   // of the file
   std::string title;  // what lists print
@@ -284,9 +294,10 @@ struct Control {
       readAheadStops;            // letter, code times ten, rising: wait for motion to end
   std::vector<StateRange> state; // no variable twice
   std::optional<PmcWindow> window;
-  std::optional<bool> printPadding; // DPRNT writes blanks for missing digits; nothing: not known
-  std::vector<AlarmInfo> alarms;    // each alarm once
-  std::vector<CodeInfo> codes;      // G and M, in the order of the file; each letter and code once
+  std::optional<MacroPackage> package; // nothing: sets have the numbers that their data states
+  std::optional<bool> printPadding;    // DPRNT writes blanks for missing digits; nothing: not known
+  std::vector<AlarmInfo> alarms;       // each alarm once
+  std::vector<CodeInfo> codes;         // G and M, in the order of the file; each letter and code once
 
   // The address counts a length, an angle or seconds.
   bool isLength(char letter) const { return ir::isAddressIn(lengths, letter); }

@@ -101,6 +101,7 @@ private:
   void withToolLength();
   void state(Taken& blocks);
   void window(Taken& blocks);
+  void package();
   void overlaps(const ControlSection& table, const Taken& blocks) const;
   void takeAway(const ControlSection& table, std::string_view key, std::optional<int>& member, Taken& blocks);
 

@@ -105,6 +105,7 @@ void ControlReader::variables() {
     takeAway(table, key, *member, blocks);
   state(blocks);
   window(blocks);
+  package();
   overlaps(table, blocks);
   withToolLength();
 }
@@ -234,6 +235,25 @@ void ControlReader::window(Taken& blocks) {
   if (window.address == 0)
     document_.fail(table.range(), "`address` is missing: the variable that chooses the place");
   control_.window = std::move(window);
+}
+
+// [macro_package]: see MacroPackage.
+void ControlReader::package() {
+  const ControlSection table = optional("macro_package");
+  if (!table) return;
+  origin(table);
+  MacroPackage out;
+  out.set = table.require("set", "the macro set that is delivered with other numbers").text();
+  out.title = table.require("title", "the name of the package").text();
+  out.shift = whole(table, "shift", "how far #100 to #149 are moved", 0, 900);
+  out.calibrationFirst =
+      whole(table, "calibration_first", "the first variable of the calibration", 100, 9999);
+  out.calibrationLast = whole(table, "calibration_last", "the last variable of the calibration", 100, 9999);
+  out.radiusX = whole(table, "radius_x", "the variable of the ball's radius in X", 100, 9999);
+  out.radiusY = whole(table, "radius_y", "the variable of the ball's radius in Y", 100, 9999);
+  if (out.calibrationLast < out.calibrationFirst)
+    document_.fail(table.range("calibration_last"), "`calibration_last` is less than `calibration_first`");
+  control_.package = std::move(out);
 }
 
 } // namespace dotek::stdlib

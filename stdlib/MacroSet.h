@@ -259,6 +259,11 @@ struct MacroSet {
   static std::optional<MacroSet> load(const DataFiles& files, std::string_view name);
 };
 
+struct MacroPackage;
+// The set as the control has it (Control::package): the same name and calls, its variables moved. Work
+// offsets by an extended number are none of its letters, as the package codes them otherwise.
+MacroSet packaged(const MacroSet& set, const MacroPackage& package);
+
 // #n that a letter of G65 sets, argument specification I; 0: the letter is no argument.
 std::uint32_t localOf(char letter);
 // The letter that sets #n; 0: none does.

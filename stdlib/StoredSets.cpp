@@ -82,19 +82,23 @@ template <class Archive> void fields(Archive& archive, PmcWindow& it) {
   auto& [area, bytes, address, byte, word, doubleWord] = it;
   archive(area, bytes, address, byte, word, doubleWord);
 }
+template <class Archive> void fields(Archive& archive, MacroPackage& it) {
+  auto& [set, title, shift, calibrationFirst, calibrationLast, radiusX, radiusY] = it;
+  archive(set, title, shift, calibrationFirst, calibrationLast, radiusX, radiusY);
+}
 template <class Archive> void fields(Archive& archive, Control& it) {
   auto& [name, title, origin, decimal, decimalGrade, arithmetic, lengths, increment, decimals, integerDigits,
          digits, ifThen, joinedConditions, thenGoto, bareFunctions, bracketDepth, locals, macroLevels, common,
          readOnly, toolOffsets, functions, alarmFirst, alarmLast, alarmShown, alarmLength, programLast,
          colonNames, programNames, sequenceLast, variables, withToolLength, arcTolerance, repeatLetter,
-         rotation, callDepth, repeatInProgram, callCodes, readAheadStops, state, window, printPadding, alarms,
-         codes] = it;
+         rotation, callDepth, repeatInProgram, callCodes, readAheadStops, state, window, package,
+         printPadding, alarms, codes] = it;
   archive(name, title, origin, decimal, decimalGrade, arithmetic, lengths, increment, decimals, integerDigits,
           digits, ifThen, joinedConditions, thenGoto, bareFunctions, bracketDepth, locals, macroLevels,
           common, readOnly, toolOffsets, functions, alarmFirst, alarmLast, alarmShown, alarmLength,
           programLast, colonNames, programNames, sequenceLast, variables, withToolLength, arcTolerance,
           repeatLetter, rotation, callDepth, repeatInProgram, callCodes, readAheadStops, state, window,
-          printPadding, alarms, codes);
+          package, printPadding, alarms, codes);
 }
 
 namespace {

@@ -3,6 +3,7 @@
 #include "frontend/compost/Summary.h"
 #include "frontend/gibbs/Run.h"
 #include "ir/Program.h"
+#include "ir/Walk.h"
 #include "project/CycleChecks.h"
 #include "project/Prog.h"
 #include "project/Programs.h"
@@ -37,15 +38,31 @@ namespace gibbs = frontend::gibbs;
 
 namespace {
 
-// Variables of the control that the program writes by number.
-std::set<std::uint32_t> storesOf(const std::vector<ir::Program>& programs) {
+// Variables of the control that the program writes by number; of a number that is computed from a constant
+// those near it, which none of the sets works in.
+std::set<std::uint32_t> storesOf(const std::vector<ir::Program>& programs,
+                                 const std::vector<const stdlib::MacroSet*>& sets) {
+  constexpr std::uint32_t kFirst = 100, kEnd = 1000, kBelow = 10, kAbove = 40;
   std::set<std::uint32_t> out;
+  const auto near = [&](std::uint32_t base) {
+    for (std::uint32_t number = std::max(kFirst, base - kBelow); number < std::min(kEnd, base + kAbove);
+         ++number)
+      if (std::none_of(sets.begin(), sets.end(), [&](const stdlib::MacroSet* set) {
+            return set != nullptr && verify::usesVariable(*set, number);
+          }))
+        out.insert(number);
+  };
   for (const ir::Program& program : programs) {
     for (const ir::ProgramStatement& statement : program.body) {
       const auto* store = std::get_if<ir::Store>(&statement.node);
       const double* number = store != nullptr && store->number ? ir::constantValue(store->number) : nullptr;
-      if (number != nullptr && *number >= 100 && *number < 1000)
+      if (number != nullptr && *number >= kFirst && *number < kEnd)
         out.insert(static_cast<std::uint32_t>(*number));
+      else if (const auto base = store != nullptr && store->number && number == nullptr
+                                     ? ir::firstNumber(store->number)
+                                     : std::nullopt;
+               base && *base >= kFirst && *base < kEnd)
+        near(*base);
     }
   }
   return out;
@@ -138,7 +155,7 @@ bool CaseRunner::prepare() {
   wide_.emplace(std::move(wide), hosts, plan_.fixedHosts, options_.seed, plan_.bounds, options_.cases);
   draws_.emplace(std::move(near), std::move(hosts), plan_.fixedHosts, options_.seed, plan_.bounds,
                  options_.cases);
-  sourceSet_ = session_.macroSet(plan_.sourceMacros);
+  sourceSet_ = session_.macroSet(plan_.sourceMacros, &*inputs_->sourceControl);
   variables_ = variablesOf(options_.variables, session_.diagnostics());
   if (session_.diagnostics().hasErrors()) return false;
   std::vector<const stdlib::MacroSet*> sets;
@@ -494,7 +511,9 @@ bool CaseRunner::readPosted(Values& values) {
   posted->stopsSpindle = values.spindleOff.has_value();
   posted->stopsCoolant =
       blockWith(program, *inputs_->sourceControl, stdlib::Function::CoolantOff).has_value();
-  posted->stores = storesOf(posted->file.programs);
+  posted->stores = storesOf(
+      posted->file.programs,
+      {sourceSet_, session_.macroSet(plan_.targetMacros, inputs_->control ? &*inputs_->control : nullptr)});
   if (sourceSet_ == nullptr && plan_.findsMacros) findMacros(program);
   if (sourceSet_ != nullptr && plan_.sourceMacros != plan_.targetMacros && halvesBetweenSteps(program))
     values.losesDigits = true;

@@ -13,8 +13,8 @@ std::optional<sim::Part> CaseRunner::partBeside(const Values& values, const veri
   if (!values.path || values.path->touches.empty() || plan_.part) return std::nullopt;
   std::vector<verify::Touch> touches = values.path->nominal();
   for (std::size_t i = 0; i < touches.size(); ++i)
-    if (!grown.touch || *grown.touch == i)
-      touches[i].point = touches[i].point + touches[i].direction * grown.by;
+    if (!grown.touch || (i >= *grown.touch && i < *grown.touch + grown.count))
+      touches[i].point = touches[i].point + touches[i].direction * grown.by + grown.moved;
   verify::PartError error = values.drawn.error;
   error.shift = error.shift + more.shift;
   error.turn += more.turn;

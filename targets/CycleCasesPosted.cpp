@@ -80,7 +80,7 @@ void CaseRunner::findMacros(const ir::Program& program) {
       called.insert(static_cast<std::uint32_t>(std::lround(*number)));
   }
   const stdlib::MacroSet* only = nullptr;
-  for (const stdlib::MacroSet& set : session_.macroSets()) {
+  for (const stdlib::MacroSet& set : session_.macroSets(&*inputs_->sourceControl)) {
     const bool all =
         std::all_of(called.begin(), called.end(), [&](std::uint32_t number) { return set.calls(number); });
     if (called.empty() || !all) continue;

@@ -37,7 +37,8 @@ void CaseRunner::findReads(Values& values) {
   std::vector<const stdlib::MacroSet*> sets;
   if (sourceSet_ != nullptr) sets.push_back(sourceSet_);
   posted.reads = verify::variablesOf(posted.file, *inputs_->sourceControl, sets);
-  const stdlib::MacroSet* const other = session_.macroSet(plan_.targetMacros);
+  const stdlib::MacroSet* const other =
+      session_.macroSet(plan_.targetMacros, inputs_->control ? &*inputs_->control : nullptr);
   std::erase_if(posted.reads, [&](const verify::ProgramVariable& one) {
     if (one.number < kFirst || one.number >= kEnd) return true;
     // What the macros of a set leave there is theirs.

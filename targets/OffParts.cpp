@@ -11,7 +11,9 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <string>
 #include <tuple>
+#include <utility>
 
 namespace dotek::targets {
 
@@ -160,37 +162,63 @@ std::vector<verify::Difference> compareTurns(const TargetCase& now, bool exact, 
   return found;
 }
 
-// Touches of the path that are all of a measurement, by number; none where the source measures more often
-// than the path touches, or less.
-std::vector<std::size_t> singleTouches(const verify::Record& source, std::size_t drawn) {
-  std::vector<std::size_t> out;
+// Touches of the path by measurement: the first and how many; none where the source measures more often than
+// the path touches, or less. One that measures what another one measures is left out.
+std::vector<std::pair<std::size_t, std::size_t>> touchesByMeasure(const verify::Record& source,
+                                                                  std::size_t drawn) {
+  const auto sharesPlace = [](const verify::Measure& one, const verify::Measure& other) {
+    constexpr double kSame = 0.02; // mm
+    return std::any_of(one.nominal.begin(), one.nominal.end(), [&](const verify::Touch& touch) {
+      return std::any_of(other.nominal.begin(), other.nominal.end(), [&](const verify::Touch& there) {
+        return (touch.point - there.point).length() <= kSame;
+      });
+    });
+  };
+  std::vector<std::pair<std::size_t, std::size_t>> out;
   std::size_t touches = 0;
   for (const verify::Measure& measure : source.measures) {
-    if (measure.nominal.size() <= 1) out.push_back(touches);
-    touches += std::max<std::size_t>(measure.nominal.size(), 1);
+    const std::size_t count = std::max<std::size_t>(measure.nominal.size(), 1);
+    const bool alone = count == 1 || std::none_of(source.measures.begin(), source.measures.end(),
+                                                  [&](const verify::Measure& other) {
+                                                    return &other != &measure && sharesPlace(measure, other);
+                                                  });
+    if (alone) out.emplace_back(touches, count);
+    touches += count;
   }
   if (touches != drawn) out.clear();
   return out;
 }
 
-// One surface off and the others not: what a program compares between two touches.
+// What one measurement finds off and the others not: what a program compares between two.
 std::vector<verify::Difference> compareApart(const TargetCase& now, const Compare& compare) {
+  constexpr std::size_t kMostMeasures = 6;
   // mm; on no limit that somebody would give
   constexpr double kApart[] = {0.3171, -1.0433};
-  constexpr std::size_t kMostTouches = 6;
+  // Its size a little off as well: a difference of exactly 0 has no sign for two macros to agree on.
+  const sim::Point3 kMoved{0.2171, -0.4433, 0};
+  constexpr double kHardly = 0.0131;
   std::vector<verify::Difference> found;
-  const std::vector<std::size_t> touches = singleTouches(*now.source, now.questions->touches());
-  if (touches.size() < 2 || touches.size() > kMostTouches) return found;
-  for (const std::size_t touch : touches)
-    for (const double by : kApart) {
-      now.questions->elsewhere({}, {by, touch}, [&](const verify::Record& meant, sim::World& world) {
-        if (counts(meant)) found = compare(meant, world);
-      });
-      for (verify::Difference& one : found)
-        one.text = fmt::format("with the surface of touch {} {} mm farther: {}", touch + 1, numberText(by),
-                               one.text);
-      if (!found.empty()) return found;
-    }
+  const auto measures = touchesByMeasure(*now.source, now.questions->touches());
+  if (measures.size() < 2 || measures.size() > kMostMeasures) return found;
+  const auto look = [&](const SourceQuestions::Growth& growth, const std::string& where) {
+    now.questions->elsewhere({}, growth, [&](const verify::Record& meant, sim::World& world) {
+      if (counts(meant)) found = compare(meant, world);
+    });
+    for (verify::Difference& one : found)
+      one.text = fmt::format("with {}: {}", where, one.text);
+    return !found.empty();
+  };
+  for (const auto& [touch, count] : measures) {
+    const std::string what = count == 1
+                                 ? fmt::format("the surface of touch {}", touch + 1)
+                                 : fmt::format("the surfaces of touches {} to {}", touch + 1, touch + count);
+    for (const double by : kApart)
+      if (look({by, touch, count}, fmt::format("{} {} mm farther", what, numberText(by)))) return found;
+    if (count > 1 &&
+        look({kHardly, touch, count, kMoved},
+             fmt::format("{} moved by X{} Y{}", what, numberText(kMoved.x), numberText(kMoved.y))))
+      return found;
+  }
   return found;
 }
 

@@ -153,13 +153,17 @@ double measuresAfterDatum(const verify::Record& source, std::uint32_t system) {
 
 } // namespace
 
+bool sameMacros(const stdlib::MacroSet* one, const stdlib::MacroSet* other) {
+  return one == other || (one != nullptr && other != nullptr && one->name == other->name);
+}
+
 verify::CompareRules programRules(const VerificationSource& from, const stdlib::Control& control,
                                   const stdlib::MacroSet* sourceSet, const stdlib::MacroSet* set) {
   verify::CompareRules rules;
   rules.tolerance = from.options.tolerance;
   rules.results = std::max(rules.tolerance, resultTolerance(control, *from.inputs.sourceControl));
-  if (sourceSet != set) rules.results = std::max(rules.results, verify::kGridSteps);
-  rules.sameAlarmNumbers = sourceSet == set;
+  if (!sameMacros(sourceSet, set)) rules.results = std::max(rules.results, verify::kGridSteps);
+  rules.sameAlarmNumbers = sameMacros(sourceSet, set);
   rules.shownText = control.alarmLength;
   const stdlib::CodeInfo* const wait = control.find(stdlib::Function::MachineCoordinates);
   rules.waits = wait != nullptr && wait->grade != "assumed";

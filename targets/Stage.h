@@ -8,6 +8,9 @@
 
 namespace dotek::targets {
 
+// Both sides call macros of the same name, or none. One control may have them with other variables.
+bool sameMacros(const stdlib::MacroSet* one, const stdlib::MacroSet* other);
+
 // A calibrated probe with the ball of the case, as exact as its signal; off.
 sim::Probe probeFor(const VerifyPlan& plan, const verify::Case& drawn);
 // The same for the same values and host inputs: what is drawn of the caller by it comes again in a replay.

@@ -60,9 +60,11 @@ public:
   virtual std::size_t touches() const { return 0; }
   // How much farther along its touch a surface lies, mm.
   struct Growth {
-    double by = 0;
+    double by = 0; // mm along the touch
     std::optional<std::size_t> touch =
-        std::nullopt; // that surface alone, in the order of the path; else each
+        std::nullopt;       // that surface alone, in the order of the path; else each
+    std::size_t count = 1;  // surfaces from `touch` on
+    sim::Point3 moved = {}; // mm, all of them
   };
   // The values of the case where the part is off by `more` besides, and surfaces lie farther; `look` gets the
   // run and its part, unless there is none.

@@ -66,6 +66,7 @@ public:
       tooMany_ = true; // to fit each of them beside all others would be in vain
       return;
     }
+    divideRounds();
     addBores();
     for (const Pair& pair : pairs)
       addPair(pair);
@@ -195,13 +196,31 @@ private:
     return out;
   }
 
+  // Touched from `low` to `high`. What is measured at another height has a size of its own there.
   void addRound(const Pair& pair, double low, double high) {
     const Point3 middle = pair.middle - middle_;
     const Point3 bottom{middle.x, middle.y, low - middle_.z}, top{middle.x, middle.y, high - middle_.z};
-    if (pair.outward)
-      bores_.push_back({bottom, top, pair.half});
-    else
-      builder_.cylinder(bottom, top, pair.half);
+    rounds_.push_back({{bottom, top, pair.half}, pair.outward});
+  }
+  void divideRounds() {
+    for (Round& lower : rounds_)
+      for (Round& upper : rounds_) {
+        const Point3 &from = lower.bore.bottom, &to = upper.bore.bottom;
+        const double lowerMiddle = (from.z + lower.bore.top.z) / 2,
+                     upperMiddle = (to.z + upper.bore.top.z) / 2;
+        if (lower.outward != upper.outward || lowerMiddle >= upperMiddle || lower.bore.top.z <= to.z ||
+            std::hypot(from.x - to.x, from.y - to.y) > std::min(lower.bore.radius, upper.bore.radius))
+          continue;
+        const double between = (to.z + lower.bore.top.z) / 2;
+        lower.bore.top.z = between;
+        upper.bore.bottom.z = between;
+      }
+    for (const Round& one : rounds_) {
+      if (one.outward)
+        bores_.push_back(one.bore);
+      else
+        builder_.cylinder(one.bore.bottom, one.bore.top, one.bore.radius);
+    }
   }
 
   // One plate for all: the plate of one closes no other.
@@ -295,6 +314,11 @@ private:
     Point3 bottom, top;
     double radius = 0;
   };
+  struct Round {
+    Bore bore;
+    bool outward = true;
+  };
+  std::vector<Round> rounds_;
   std::vector<Bore> bores_;
   Point3 middle_; // zero of the part: what it is turned about
   const std::vector<Touch>& all_;

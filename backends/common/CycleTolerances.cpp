@@ -75,8 +75,8 @@ private:
     return false;
   }
 
-  // Along each axis, and of the size. Of a feature without a size no source says whether a macro looks at each
-  // axis or at the distance: the distance is never the smaller one.
+  // Along each axis, and of the size. Of a feature without a size no source says whether a macro looks at
+  // each axis or at the distance: the distance is never the smaller one.
   bool addLimit(const ir::CallCycle& cycle, const ir::ExpressionPtr& limit) {
     constexpr std::string_view kText = "UPPER LIMIT";
     if (!cycle.axis && sizeOf(cycle) == nullptr) return add(off(cycle), limit, kText);

@@ -52,8 +52,8 @@ struct CallValues {
   bool setsSystem = true; // the call itself sets the offset of the measurement
 };
 
-// How far from the probe the source expects the surface that a call touches along a direction of the plane XY,
-// mm along the axis; nullptr: another cycle.
+// How far from the probe the source expects the surface that a call touches along a direction of the plane
+// XY, mm along the axis; nullptr: another cycle.
 ir::ExpressionPtr awayAlong(const ir::CallCycle& cycle, ir::Axis axis);
 // Where the probe is and how far from it; a null pointer of either is left out.
 ir::ExpressionPtr awayFrom(const ir::ExpressionPtr& position, const ir::CallCycle& cycle, ir::Axis axis);

@@ -15,9 +15,9 @@ struct ToolCorrection {
   bool geometry = true;                 // the register of the source's set; else the wear
 };
 
-// Takes tool, share and band out of the arguments of a call that measures a surface along Z. Nothing: the call
-// corrects no tool, `signature` has a letter for it, or what the source's set does is not known (a share that
-// the call does not state, a radius, a set that does not say which register it corrects).
+// Takes tool, share and band out of the arguments of a call that measures a surface along Z. Nothing: the
+// call corrects no tool, `signature` has a letter for it, or what the source's set does is not known (a share
+// that the call does not state, a radius, a set that does not say which register it corrects).
 std::optional<ToolCorrection> takeToolCorrection(ir::CallCycle& cycle, const stdlib::MacroSet* source,
                                                  const stdlib::MacroSignature& signature,
                                                  const ExpectedAlong& expected);

@@ -73,7 +73,19 @@ private:
     return ir::machineVariable(ir::constant(*there, machine->number->range), expression->range);
   }
 
+  // What macros of the source leave, where the target has the same ones with other variables.
+  std::optional<std::uint32_t> packaged(std::uint32_t number) const {
+    const stdlib::MacroSet* const source = state_.options.source;
+    if (source == nullptr || source == &state_.macros || source->name != state_.macros.name)
+      return std::nullopt;
+    for (std::size_t i = 0; i < source->overwritten.size(); ++i)
+      if (const auto [first, last] = source->overwritten[i]; number >= first && number <= last)
+        return state_.macros.overwritten.at(i).first + (number - first);
+    return std::nullopt;
+  }
+
   std::optional<std::uint32_t> moved(std::uint32_t number, SourceRange range) {
+    if (const auto there = packaged(number)) return there;
     const VariableThere there = variableThere(number, state_.options.sourceControl, state_.control);
     if (!there.number) {
       if (there.onlyKeptOtherwise && isWrittenFirst(number)) return number;

@@ -302,8 +302,7 @@ void writeCycle(State& state, const ir::CallCycle& given, const ir::Origin& orig
     const ir::ExpressionPtr at = expected.at(of, axis);
     return at == nullptr ? nullptr : tidy(at);
   };
-  const std::vector<Tolerance> tolerances =
-      takeTolerances(cycle, state.macros, *signature, along);
+  const std::vector<Tolerance> tolerances = takeTolerances(cycle, state.macros, *signature, along);
   const auto correction = takeToolCorrection(cycle, state.options.source, *signature, along);
   if (cycle.setting) {
     values.setsSystem = setsByItself(state, cycle, *signature, !tolerances.empty(), origin, expected);

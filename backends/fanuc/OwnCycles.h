@@ -16,8 +16,8 @@ void writeSetOffset(State& state, const ir::CallCycle& set, const ir::Origin& or
 
 // A part of a tool offset (kSetTool): a length or radius as a whole into its geometry, the wear becomes 0.
 // Refused: a control whose profile says no such part, a move after a length.
-// After the call: the tool length becomes shorter by a share of the error, in the register that the macro of the
-// source corrects; an offset that the table has not is an alarm.
+// After the call: the tool length becomes shorter by a share of the error, in the register that the macro of
+// the source corrects; an offset that the table has not is an alarm.
 void writeToolCorrection(State& state, const ToolCorrection& correction, const ir::Origin& origin);
 void writeSetTool(State& state, const ir::CallCycle& set, const ir::Origin& origin);
 // `left` gets what the table has.

@@ -223,7 +223,7 @@ bool translateCalls(ir::ProgramFile& file, const CallOptions& options, Diagnosti
     return false;
   }
   const bool same = std::any_of(found.fits.begin(), found.fits.end(),
-                                [&](const stdlib::MacroSet* set) { return set->name == wanted.name; });
+                                [&](const stdlib::MacroSet* set) { return isSame(*set, wanted); });
   if (same && found.mixed == nullptr) return true;
   if (found.fits.size() != 1) {
     const ir::ProgramStatement& at = found.mixed != nullptr ? *found.mixed : *found.first;

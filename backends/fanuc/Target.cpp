@@ -68,8 +68,9 @@ public:
     ir::fold(lowered.cycle, lowered.fixed);
     fanuc::EmitOptions emit{*inputs.control, *macros, *inputs.sourceControl, 0, {}, {}, {}, {}};
     emit.plainMessages = options_.common.assume.contains("plain-messages");
-    emit.foreignMacros = macros != lowered.macros;
-    emit.source = lowered.macros;
+    emit.foreignMacros = lowered.macros == nullptr || macros->name != lowered.macros->name;
+    emit.source =
+        lowered.macros == nullptr ? nullptr : session_.macroSet(lowered.macros->name, &*inputs.sourceControl);
     emit.computed = lowered.computed;
     emit.remarks = std::move(results.headings);
     for (const auto& [id, choices] : lists)
@@ -216,10 +217,11 @@ private:
   // The set that the program calls: given, else the source's, none where nothing calls one; a path alone
   // takes the first that touches without setting an offset.
   const stdlib::MacroSet* macrosOf(const LoweredCycle& lowered) {
-    if (options_.probeMacros) return session_.macroSet(*options_.probeMacros);
-    if (lowered.macros != nullptr) return lowered.macros;
+    const stdlib::Control* const control = &*context_.inputs->control;
+    if (options_.probeMacros) return session_.macroSet(*options_.probeMacros, control);
+    if (lowered.macros != nullptr) return session_.macroSet(lowered.macros->name, control);
     if (needsNone(lowered.cycle)) return &none_;
-    for (const stdlib::MacroSet& set : session_.macroSets()) {
+    for (const stdlib::MacroSet& set : session_.macroSets(control)) {
       const stdlib::MacroSignature* surface = set.find(stdlib::Intent::Surface);
       const stdlib::MacroArgument* system =
           surface == nullptr ? nullptr : surface->find(stdlib::ArgumentRole::System, ir::Axis::X);

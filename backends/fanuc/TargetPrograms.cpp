@@ -3,6 +3,7 @@
 #include "backends/fanuc/Program.h"
 #include "backends/fanuc/ProgramCalls.h"
 #include "backends/fanuc/TargetEarly.h"
+#include "backends/fanuc/TranslateCall.h"
 #include "project/Lowering.h"
 #include "project/Programs.h"
 #include "support/messages/Commands.h"
@@ -39,7 +40,7 @@ bool ProgramConversion::load() {
   source_ = options_.fromControl.empty() ? control_ : loadControl(options_.fromControl, session_);
   if (!control_ || !source_) return false;
   if (!options_.probeMacros) return true;
-  wanted_ = session_.macroSet(*options_.probeMacros);
+  wanted_ = session_.macroSet(*options_.probeMacros, &*control_);
   if (wanted_ == nullptr) reportUnknownMacroSet(*options_.probeMacros, session_);
   return wanted_ != nullptr;
 }
@@ -62,7 +63,7 @@ stdlib::Control ProgramConversion::sourceOf(const ir::ProgramFile& file) const {
 bool ProgramConversion::translateCalls(ir::ProgramFile& file, const stdlib::Control& source) {
   if (wanted_ == nullptr) return true;
   return fanuc::translateCalls(
-      file, {*wanted_, session_.macroSets(), source, options_.programNumber, control_->name},
+      file, {*wanted_, session_.macroSets(&source), source, options_.programNumber, control_->name},
       session_.diagnostics());
 }
 
@@ -77,11 +78,17 @@ void ProgramConversion::convert(const std::string& path, ConversionResult& resul
     return;
   }
   if (leader.begin < leader.end) session_.diagnostics().report<diag::LeaderLeftOut>(leader);
+  // The maker of the target may deliver the set of the source with other variables.
+  if (!options_.probeMacros)
+    if (const stdlib::MacroSet* called = fanuc::calledSet(*programs, session_.macroSets(&*source_)))
+      if (const stdlib::MacroSet* there = session_.macroSet(called->name, &*control_);
+          there != nullptr && !backends::fanuc::isSame(*called, *there))
+        wanted_ = there;
   const stdlib::Control source = sourceOf(*programs);
   if (!translateCalls(*programs, source)) return;
   fanuc::ProgramOptions emit{*control_, source, options_.programNumber, options_.renumber, false};
   emit.plainMessages = options_.common.assume.contains("plain-messages");
-  for (const stdlib::MacroSet& set : session_.macroSets()) {
+  for (const stdlib::MacroSet& set : session_.macroSets(&source)) {
     const bool own = std::any_of(programs->programs.begin(), programs->programs.end(), [&](const auto& one) {
       return one.number <= UINT32_MAX && set.calls(static_cast<std::uint32_t>(one.number));
     });

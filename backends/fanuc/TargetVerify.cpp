@@ -43,8 +43,8 @@ std::uint32_t programNumber(const std::string& text) {
 
 FanucVerification::FanucVerification(const VerificationSource& source)
     : from_(source), translation_(*source.plan.translation), control_(*source.inputs.control),
-      sourceSet_(source.session.macroSet(source.plan.sourceMacros)),
-      set_(source.session.macroSet(source.plan.targetMacros)),
+      sourceSet_(source.session.macroSet(source.plan.sourceMacros, &*source.inputs.sourceControl)),
+      set_(source.session.macroSet(source.plan.targetMacros, &*source.inputs.control)),
       macrosHaveText_(set_ != nullptr && source.session.data().find("macrob", set_->name) != nullptr),
       stand_(control_,
              set_ == nullptr ? std::vector<const stdlib::MacroSet*>{}
@@ -127,7 +127,7 @@ verify::Record FanucVerification::runText(const TargetCase& now, const verify::E
   if (set_ != nullptr) {
     meaning.emplace(*set_, control_);
     meaning->setStylusRadius(now.drawn.hosts.at("tool_radius"));
-    if (sourceSet_ == set_) meaning->passUnstated();
+    if (sameMacros(sourceSet_, set_)) meaning->passUnstated();
   }
   std::optional<sim::Trace> writer;
   if (from_.options.traces && trace != nullptr) {
@@ -264,10 +264,10 @@ void FanucVerification::compareRecords(const TargetCase& now, const verify::Reco
                         source.alarmKind == stdlib::macroAlarmName(stdlib::MacroAlarm::ProbeFail);
   // So is whether it begins where the ball is already in contact: at an edge the travel is that short.
   const bool begins = record.alarmKind == stdlib::macroAlarmName(stdlib::MacroAlarm::ProbeOpen);
-  if (sourceSet_ != set_ && now.drawn.edge && begins && source.alarmKind != record.alarmKind) {
+  if (!sameMacros(sourceSet_, set_) && now.drawn.edge && begins && source.alarmKind != record.alarmKind) {
     out.undecided = true;
     out.why = "the ball touches where a measure begins: " + record.text;
-  } else if (sourceSet_ != set_ && searches &&
+  } else if (!sameMacros(sourceSet_, set_) && searches &&
              (verify::findsAll(record) || !rules.samePlace(source.endedAt, record.endedAt)))
     out.undecided = true;
   else

@@ -53,16 +53,18 @@ bool ProgramRunner::load() {
   file_ = *id;
   programs_ = loadPrograms(*id, *sourceControl_, session_);
   if (!programs_ || programs_->programs.empty()) return false;
-  sourceSet_ = backends::fanuc::calledSet(*programs_, session_.macroSets());
+  sourceSet_ = backends::fanuc::calledSet(*programs_, session_.macroSets(&*sourceControl_));
   // A program of the file is before a macro of that number.
   if (sourceSet_ != nullptr &&
       std::any_of(programs_->programs.begin(), programs_->programs.end(), [&](const ir::Program& program) {
         return program.number != 0 && sourceSet_->calls(static_cast<std::uint32_t>(program.number));
       }))
     sourceSet_ = nullptr;
-  targetSet_ = sourceSet_;
-  for (const stdlib::MacroSet& set : session_.macroSets())
-    if (sourceSet_ != nullptr && options_.probeMacros == set.name) targetSet_ = &set;
+  if (sourceSet_ != nullptr) {
+    sourceSet_ = session_.macroSet(sourceSet_->name, &*sourceControl_);
+    targetSet_ = session_.macroSet(options_.probeMacros.value_or(sourceSet_->name), &*targetControl_);
+    if (targetSet_ == nullptr) targetSet_ = sourceSet_;
+  }
   std::vector<const stdlib::MacroSet*> used;
   if (sourceSet_ != nullptr) used.push_back(sourceSet_);
   if (targetSet_ != sourceSet_) used.push_back(targetSet_);
@@ -336,7 +338,7 @@ verify::Record ProgramRunner::runSide(const Side& side, const verify::Case& draw
   if (side.set != nullptr) {
     meaning.emplace(*side.set, *side.control);
     meaning->setStylusRadius(drawn.hosts.at("tool_radius"));
-    if (sourceSet_ == targetSet_) meaning->passUnstated();
+    if (sameMacros(sourceSet_, targetSet_)) meaning->passUnstated();
   }
   // What the programs switch off is on before, on both sides.
   verify::Random random(callerStream(drawn));
@@ -413,7 +415,7 @@ verify::CompareRules ProgramRunner::rules() const {
   if (sourceControl_->name == targetControl_->name) out.targetControl = out.sourceControl;
   const stdlib::CodeInfo* const wait = targetControl_->find(stdlib::Function::MachineCoordinates);
   out.waits = wait != nullptr && wait->grade != "assumed";
-  out.sameAlarmNumbers = sourceSet_ == targetSet_;
+  out.sameAlarmNumbers = sameMacros(sourceSet_, targetSet_);
   out.toolParts = sourceSet_ == targetSet_ && sourceControl_->variables.toolGeometry.has_value() ==
                                                   targetControl_->variables.toolGeometry.has_value();
   out.samePlace = [this](SourceRange one, SourceRange other) {

@@ -108,7 +108,7 @@ public:
     out_.refusal = read(call_, settings_.source, reading_);
     if (refused()) return std::move(out_);
     from_ = reading_.signature;
-    if (settings_.source.name == settings_.target.name) {
+    if (isSame(settings_.source, settings_.target)) {
       out_.call = call_;
       return std::move(out_);
     }
@@ -431,6 +431,10 @@ const stdlib::MacroResult* resultIn(const MacroSignature& signature, std::uint32
 
 } // namespace
 
+bool isSame(const stdlib::MacroSet& one, const stdlib::MacroSet& other) {
+  return one.name == other.name && one.scratch == other.scratch;
+}
+
 TranslatedCall translateCall(const ir::Call& call, const TranslateSettings& settings) {
   return Translation(call, settings).run();
 }
@@ -439,7 +443,7 @@ TranslatedVariable translateResult(const ir::Call& call, std::uint32_t variable,
                                    const TranslateSettings& settings) {
   const stdlib::MacroSet& source = settings.source;
   const stdlib::MacroSet& target = settings.target;
-  if (source.name == target.name) return {"", variable};
+  if (isSame(source, target)) return {"", variable};
   stdlib::CallReading reading;
   if (std::string refusal = read(call, source, reading); !refusal.empty()) return {std::move(refusal), 0};
   const stdlib::MacroResult* result = resultIn(*reading.signature, variable);

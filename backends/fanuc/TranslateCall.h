@@ -22,6 +22,9 @@ struct TranslateSettings {
   std::string written = {}; // name of the control that the program becomes; "": `control`
 };
 
+// One set with the same variables: a control may have it elsewhere (stdlib::packaged).
+bool isSame(const stdlib::MacroSet& one, const stdlib::MacroSet& other);
+
 struct TranslatedCall {
   std::string refusal;                      // why it cannot be written; "": the rest holds
   std::vector<ir::ProgramStatement> before; // without origin; in this order before the call

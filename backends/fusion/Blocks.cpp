@@ -1,8 +1,8 @@
 // Blocks: texts of values first, then lines.
 #include "backends/common/ToolLength.h"
 #include "backends/fusion/State.h"
-#include "ir/Walk.h"
 #include "ir/Fold.h"
+#include "ir/Walk.h"
 #include "support/Decimal.h"
 #include "support/messages/Fanuc.h"
 #include "support/messages/Fusion.h"
@@ -76,7 +76,8 @@ bool isIrrational(const ir::ExpressionPtr& value) {
   bool found = false;
   ir::eachNode(value, [&](const ir::Expression& node) {
     const auto* unary = std::get_if<ir::Unary>(&node.node);
-    found = found || (unary != nullptr && (unary->op == ir::UnaryOp::Sine || unary->op == ir::UnaryOp::Cosine));
+    found =
+        found || (unary != nullptr && (unary->op == ir::UnaryOp::Sine || unary->op == ir::UnaryOp::Cosine));
   });
   return found;
 }
@@ -167,8 +168,7 @@ void Texts::number(Text& text, const ir::ExpressionPtr& given, const ir::Origin&
     guardArithmetic(state_, value, origin);
     known->second = state_.names.take(use != nullptr ? expression + "Text" : std::string("text"));
     const std::string& name = known->second;
-    state_.script.add("var " + name + " = " + state_.helper(helper) + "(" + expression + ");",
-                      origin);
+    state_.script.add("var " + name + " = " + state_.helper(helper) + "(" + expression + ");", origin);
     state_.errorIf(name + " === null", expression + " has too many digits for the control", origin);
     if (!rounds)
       state_.script.add(state_.helper(Helper::Loses) + "(" + quoted(expression) + ", " + expression +

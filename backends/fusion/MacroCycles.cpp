@@ -52,7 +52,8 @@ void MacroBlocks::cycle(const ir::CallCycle& given, const ir::Origin& origin, st
                                               "the expected one");
         continue;
       }
-      if (nominal == nullptr) nominal = takesSystem ? awayFrom(at_[ir::indexOf(axis)].value, call, axis) : expects(call, axis);
+      if (nominal == nullptr)
+        nominal = takesSystem ? awayFrom(at_[ir::indexOf(axis)].value, call, axis) : expects(call, axis);
       if (nominal == nullptr)
         state_.refuse<diag::StartUnknown>(origin.range(), std::string(1, ir::letterOf(axis)));
     }

@@ -103,7 +103,7 @@ private:
     std::optional<CalledCycle> called = calledCycle(folder, index, file, context_);
     if (!called) return !session_.diagnostics().hasErrors();
     const LoweringInputs& inputs = *context_.inputs;
-    const stdlib::MacroSet* const macros = session_.macroSet(called->macros);
+    const stdlib::MacroSet* const macros = session_.macroSet(called->macros, &*inputs.control);
     if (macros == nullptr) return true;
     const ir::Cycle& cycle = called->lowered.cycle;
     fusion::EmitOptions emit{*inputs.control,
@@ -150,8 +150,9 @@ private:
       set.title = "no set";
       return set;
     }();
-    const stdlib::MacroSet* macros =
-        options_.probeMacros ? session_.macroSet(*options_.probeMacros) : lowered.macros;
+    const stdlib::MacroSet* macros = options_.probeMacros
+                                         ? session_.macroSet(*options_.probeMacros, &*inputs.sourceControl)
+                                         : lowered.macros;
     const bool foreign = macros != lowered.macros && lowered.macros != nullptr;
     if (macros == nullptr) macros = &none;
     const auto lists = dialogChoices(folder, lowered.cycle, session_.sources());

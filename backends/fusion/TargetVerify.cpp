@@ -33,8 +33,8 @@ class FusionVerification final : public Verification {
 public:
   explicit FusionVerification(const VerificationSource& source)
       : from_(source), control_(*source.inputs.sourceControl),
-        sourceSet_(source.session.macroSet(source.plan.sourceMacros)),
-        set_(source.session.macroSet(source.plan.targetMacros)),
+        sourceSet_(source.session.macroSet(source.plan.sourceMacros, &*source.inputs.sourceControl)),
+        set_(source.session.macroSet(source.plan.targetMacros, &*source.inputs.sourceControl)),
         stand_(control_,
                set_ == nullptr ? std::vector<const stdlib::MacroSet*>{}
                                : std::vector<const stdlib::MacroSet*>{set_},

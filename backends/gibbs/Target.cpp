@@ -43,7 +43,8 @@ public:
       diagnostics.report<diag::CamNoPost>(
           folder.place == kNoFile ? SourceRange{} : SourceRange{folder.place, 0, 0}, folder.name);
     const stdlib::MacroSet* macros =
-        options_.probeMacros ? session_.macroSet(*options_.probeMacros) : lowered.macros;
+        options_.probeMacros ? session_.macroSet(*options_.probeMacros, &*context_.inputs->control)
+                             : lowered.macros;
     if (macros == nullptr)
       diagnostics.report<diag::MissingOption>({}, "convert", "--probe-macros SET",
                                               "the macros that the post calls");
@@ -168,7 +169,7 @@ private:
       if (bank.kept) continue;
       for (std::uint32_t number = bank.first; number <= bank.last; ++number) {
         bool taken = results.numbers.contains(number);
-        for (const stdlib::MacroSet& set : session_.macroSets())
+        for (const stdlib::MacroSet& set : session_.macroSets(&control))
           for (const auto& [first, last] : set.scratch)
             taken = taken || (number >= first && number <= last);
         if (!taken) out.push_back(number);

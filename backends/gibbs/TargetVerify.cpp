@@ -52,8 +52,9 @@ std::string lettersOf(std::string_view text) {
 class FolderVerification final : public Verification {
 public:
   explicit FolderVerification(const VerificationSource& source)
-      : from_(source), sourceSet_(source.session.macroSet(source.plan.sourceMacros)),
-        set_(source.session.macroSet(source.plan.targetMacros)) {}
+      : from_(source),
+        sourceSet_(source.session.macroSet(source.plan.sourceMacros, &*source.inputs.sourceControl)),
+        set_(source.session.macroSet(source.plan.targetMacros, &*source.inputs.control)) {}
 
   bool prepare() override {
     Session& session = from_.session;

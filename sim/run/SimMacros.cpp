@@ -78,7 +78,7 @@ std::unique_ptr<SimMacros> SimMacros::load(const std::optional<std::string>& cho
   auto out = std::make_unique<SimMacros>();
   const std::set<std::uint32_t> called = missing(library);
   if (called.empty() && !chosen && !all) return out;
-  for (const stdlib::MacroSet& set : session.macroSets())
+  for (const stdlib::MacroSet& set : session.macroSets(&control))
     if (!chosen || set.name == *chosen) out->sets_.push_back(&set);
   if (chosen && out->sets_.empty()) {
     project::reportUnknownMacroSet(*chosen, session);
