@@ -195,6 +195,9 @@ VariableThere plainVariable(std::uint32_t number, const Control& from, const Con
     return refused(fmt::format("is local on one of {} and {}", from.title, to.title));
   if (!here && there)
     return refused(fmt::format("is no variable of {}, but one of {}", from.title, to.title));
+  constexpr std::uint32_t kFirstCommon = 100; // from there on an option of the control may add some
+  if (!here && !there && number > from.locals && number > to.locals && number < kFirstCommon)
+    return refused(fmt::format("is no variable of {} or of {}", from.title, to.title));
   return {number, "", ""};
 }
 

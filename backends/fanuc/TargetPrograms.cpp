@@ -88,7 +88,7 @@ void ProgramConversion::convert(const std::string& path, ConversionResult& resul
   if (!translateCalls(*programs, source)) return;
   fanuc::ProgramOptions emit{*control_, source, options_.programNumber, options_.renumber, false};
   emit.plainMessages = options_.common.assume.contains("plain-messages");
-  for (const stdlib::MacroSet& set : session_.macroSets(&source)) {
+  for (const stdlib::MacroSet& set : session_.macroSets(wanted_ != nullptr ? &*control_ : &source)) {
     const bool own = std::any_of(programs->programs.begin(), programs->programs.end(), [&](const auto& one) {
       return one.number <= UINT32_MAX && set.calls(static_cast<std::uint32_t>(one.number));
     });

@@ -444,6 +444,15 @@ TranslatedVariable translateResult(const ir::Call& call, std::uint32_t variable,
   const stdlib::MacroSet& source = settings.source;
   const stdlib::MacroSet& target = settings.target;
   if (isSame(source, target)) return {"", variable};
+  // The same macros with other variables.
+  if (source.name == target.name) {
+    for (std::size_t i = 0; i < source.overwritten.size(); ++i)
+      if (const auto [first, last] = source.overwritten[i]; variable >= first && variable <= last)
+        return {"", target.overwritten.at(i).first + (variable - first)};
+    if (within(target.scratch, variable))
+      return {fmt::format("the macros of `{}` overwrite #{}", target.title, variable), 0};
+    return {"", variable};
+  }
   stdlib::CallReading reading;
   if (std::string refusal = read(call, source, reading); !refusal.empty()) return {std::move(refusal), 0};
   const stdlib::MacroResult* result = resultIn(*reading.signature, variable);
