@@ -158,7 +158,11 @@ private:
     plan_.targetMacros = std::move(written->macros);
     const bool callsMacros = std::find(target_->flags.begin(), target_->flags.end(),
                                        TargetFlag::ProbeMacros) != target_->flags.end();
-    if (!callsMacros || plan_.targetMacros != plan_.sourceMacros) keepToSixSystems();
+    const LoweringInputs& inputs = main_.inputs();
+    const bool same = plan_.targetMacros == plan_.sourceMacros &&
+                      session.macroSet(plan_.sourceMacros, &*inputs.sourceControl) ==
+                          session.macroSet(plan_.targetMacros, inputs.control ? &*inputs.control : nullptr);
+    if (!callsMacros || !same) keepToSixSystems();
     plan_.translation = std::move(written->translation);
     return true;
   }

@@ -180,10 +180,8 @@ private:
     // Whatever set the program calls, the machine's own macros measure with it the next time.
     if (const auto& package = state_.control.package;
         package && variable >= package->calibrationFirst && variable <= package->calibrationLast &&
-        state_.control.name != state_.options.sourceControl.name) {
-      state_.refuse<diag::StoreCalibration>(origin.range(), variable, package->title);
-      return std::nullopt;
-    }
+        state_.control.name != state_.options.sourceControl.name && state_.macros.name != package->set)
+      state_.diagnostics.report<diag::StoreCalibrationUncalled>(origin.range(), variable, package->title);
     for (const auto& [first, last] : state_.macros.scratch) {
       if (variable < first || variable > last) continue;
       if (!state_.macros.keepsCalibration(variable)) {

@@ -36,6 +36,7 @@ inline void take(const Shop& of, targets::TranslationOptions& out) {
   if (*of.control != 0) out.control = of.control;
   if (*of.macros != 0) out.probeMacros = of.macros;
   out.common.probeCodes = {"M31", "M32"};
+  if (out.control.starts_with("haas")) out.common.probeCodes = {"M61", "M62"}; // M31 is the chip conveyor
   out.common.scriptProgram = runningProgram();
   for (const std::string& one : of.assume)
     out.common.assume.insert(one);

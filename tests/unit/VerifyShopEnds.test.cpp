@@ -111,4 +111,26 @@ TEST_CASE("Fusion: a title with the words of another field") {
   CHECK(agrees(verified(step, replaced(good, "\"Tolerans, pa steget\"", "\"Tolerans for steget\""))));
 }
 
+TEST_CASE("convert: the tool length that a call of another set corrects") {
+  const Shop length{"series", "KS.Delka.Nastroje", "sonda", "fanuc", "dotek", "fanuc-31i-b"};
+  const std::string good = converted(length);
+  CHECK_MESSAGE(agrees(verified(length)), verified(length));
+  for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{
+           {"]-#15*#16", "]+#15*#16"},                        // the wrong way
+           {"#[2200+#20]=", "#[2000+#20]="},                  // the wear
+           {"IF[ABS[#16] LT #22]", "IF[ABS[#16] GT #22]"}}) { // within the band
+    CAPTURE(from);
+    CHECK(differs(length, replaced(good, from, to)));
+  }
+}
+
+TEST_CASE("convert: results and calibration of a Haas's own macros") {
+  Shop sizes{"retries", "LS-WEB-Y", "probeIt", "fanuc", "inspection-plus", "fanuc-31i-b"};
+  CHECK(converted(sizes).find("#615=#138\n") != std::string::npos); // of a branch for a Haas
+  CHECK_MESSAGE(agrees(verified(sizes)), verified(sizes));
+  const Shop block{"inspection", "JT.Edge.Angle", "probeOps", "fanuc", "inspection-plus", "haas-ngc"};
+  CHECK_MESSAGE(agrees(verified(block)), verified(block));
+  CHECK(converted(block).find("=#13") == std::string::npos);
+}
+
 } // namespace dotek::tests
