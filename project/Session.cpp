@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fmt/format.h>
 
 namespace dotek::project {
 
@@ -47,8 +48,13 @@ void Session::takeProbeCodes(const stdlib::ProbeCodes& codes) {
 const std::vector<stdlib::MacroSet>& Session::macroSets(const stdlib::Control* control) {
   const stdlib::MacroPackage* const package =
       control == nullptr || !control->package ? nullptr : &*control->package;
-  const auto [at, fresh] =
-      macroSets_.try_emplace(package == nullptr ? "" : package->set + "\n" + package->title);
+  // A profile of the user's may extend another's package.
+  const std::string key =
+      package == nullptr
+          ? ""
+          : fmt::format("{} {} {} {} {} {} {}", package->set, package->shift, package->calibrationFirst,
+                        package->calibrationLast, package->radiusX, package->radiusY, package->title);
+  const auto [at, fresh] = macroSets_.try_emplace(key);
   if (!fresh) return at->second;
   for (const stdlib::DataFile* file : data_.list("macros")) {
     auto set = stdlib::MacroSet::load(data_, file->name);
