@@ -2,6 +2,7 @@
 // profiles.
 #include "backends/fanuc/ProgramVariables.h"
 #include "backends/fanuc/State.h"
+#include "backends/fanuc/TranslateCall.h"
 #include "backends/fanuc/WrittenFirst.h"
 #include "ir/CycleNames.h"
 #include "ir/Evaluate.h"
@@ -73,19 +74,15 @@ private:
     return ir::machineVariable(ir::constant(*there, machine->number->range), expression->range);
   }
 
-  // What macros of the source leave, where the target has the same ones with other variables.
+  // What the macros of the source overwrite, where the target has them with other variables.
   std::optional<std::uint32_t> packaged(std::uint32_t number) const {
     const stdlib::MacroSet* const source = state_.options.source;
-    if (source == nullptr || source == &state_.macros || source->name != state_.macros.name)
-      return std::nullopt;
-    for (std::size_t i = 0; i < source->overwritten.size(); ++i)
-      if (const auto [first, last] = source->overwritten[i]; number >= first && number <= last)
-        return state_.macros.overwritten.at(i).first + (number - first);
-    return std::nullopt;
+    if (source == nullptr || isSame(*source, state_.macros)) return std::nullopt;
+    return packagedVariable(*source, state_.macros, number);
   }
 
   std::optional<std::uint32_t> moved(std::uint32_t number, SourceRange range) {
-    if (const auto there = packaged(number)) return there;
+    if (const auto there = packaged(number); there && isWrittenFirst(number)) return there;
     const VariableThere there = variableThere(number, state_.options.sourceControl, state_.control);
     if (!there.number) {
       if (there.onlyKeptOtherwise && isWrittenFirst(number)) return number;
@@ -108,9 +105,10 @@ private:
     const auto* call = std::get_if<ir::CallCycle>(&statement.node);
     const bool measures =
         std::holds_alternative<ir::Measure>(statement.node) || (call != nullptr && !call->results.empty());
-    const auto& overwritten = state_.macros.overwritten;
-    return measures && state_.options.source == &state_.macros &&
-           std::any_of(overwritten.begin(), overwritten.end(),
+    const stdlib::MacroSet* const source = state_.options.source;
+    if (!measures || source == nullptr || source->name != state_.macros.name) return false;
+    const auto& overwritten = source->overwritten;
+    return std::any_of(overwritten.begin(), overwritten.end(),
                        [&](const auto& range) { return range.first <= number && number <= range.second; });
   }
 
@@ -151,7 +149,10 @@ private:
   void stored(ir::Store& store) {
     const auto number = wholeOf(store.number);
     if (!number) return computed(store.number, range_);
-    if (*number < kFirstSystem) return; // Flow.cpp looks at the common ones
+    if (*number < kFirstSystem) { // Flow.cpp looks at the common ones
+      if (const auto there = packaged(*number)) store.number = ir::constant(*there, store.number->range);
+      return;
+    }
     const auto there = moved(*number, range_);
     if (!there) return;
     if (state_.control.isReadOnly(*there))

@@ -79,11 +79,13 @@ void ProgramConversion::convert(const std::string& path, ConversionResult& resul
   }
   if (leader.begin < leader.end) session_.diagnostics().report<diag::LeaderLeftOut>(leader);
   // The maker of the target may deliver the set of the source with other variables.
-  if (!options_.probeMacros)
+  if (!options_.probeMacros) {
+    wanted_ = nullptr; // of the file before
     if (const stdlib::MacroSet* called = fanuc::calledSet(*programs, session_.macroSets(&*source_)))
       if (const stdlib::MacroSet* there = session_.macroSet(called->name, &*control_);
           there != nullptr && !backends::fanuc::isSame(*called, *there))
         wanted_ = there;
+  }
   const stdlib::Control source = sourceOf(*programs);
   if (!translateCalls(*programs, source)) return;
   fanuc::ProgramOptions emit{*control_, source, options_.programNumber, options_.renumber, false};

@@ -435,6 +435,15 @@ bool isSame(const stdlib::MacroSet& one, const stdlib::MacroSet& other) {
   return one.name == other.name && one.scratch == other.scratch;
 }
 
+std::optional<std::uint32_t> packagedVariable(const stdlib::MacroSet& source, const stdlib::MacroSet& target,
+                                              std::uint32_t variable) {
+  if (source.name != target.name) return std::nullopt;
+  for (std::size_t i = 0; i < source.overwritten.size(); ++i)
+    if (const auto [first, last] = source.overwritten[i]; variable >= first && variable <= last)
+      return target.overwritten.at(i).first + (variable - first);
+  return std::nullopt;
+}
+
 TranslatedCall translateCall(const ir::Call& call, const TranslateSettings& settings) {
   return Translation(call, settings).run();
 }
@@ -446,9 +455,7 @@ TranslatedVariable translateResult(const ir::Call& call, std::uint32_t variable,
   if (isSame(source, target)) return {"", variable};
   // The same macros with other variables.
   if (source.name == target.name) {
-    for (std::size_t i = 0; i < source.overwritten.size(); ++i)
-      if (const auto [first, last] = source.overwritten[i]; variable >= first && variable <= last)
-        return {"", target.overwritten.at(i).first + (variable - first)};
+    if (const auto there = packagedVariable(source, target, variable)) return {"", *there};
     if (within(target.scratch, variable))
       return {fmt::format("the macros of `{}` overwrite #{}", target.title, variable), 0};
     return {"", variable};

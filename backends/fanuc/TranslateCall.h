@@ -24,6 +24,10 @@ struct TranslateSettings {
 
 // One set with the same variables: a control may have it elsewhere (stdlib::packaged).
 bool isSame(const stdlib::MacroSet& one, const stdlib::MacroSet& other);
+// Where macros of one name leave in `target` what they leave in #`variable` in `source`; nothing: they write
+// it nowhere, or are others.
+std::optional<std::uint32_t> packagedVariable(const stdlib::MacroSet& source, const stdlib::MacroSet& target,
+                                              std::uint32_t variable);
 
 struct TranslatedCall {
   std::string refusal;                      // why it cannot be written; "": the rest holds

@@ -19,6 +19,13 @@ namespace {
 // Measure or CallCycle whose results the macros hold; nullptr: on some way none.
 using Lasts = std::set<const ir::CycleStatement*>;
 
+// Where the macros of a set leave it; `measured` may be a null pointer.
+FoundResult resultIn(const stdlib::MacroSet& macros, const ir::CycleStatement* measured,
+                     ir::ResultName name) {
+  const stdlib::MacroSignature* signature = measured == nullptr ? nullptr : signatureOf(macros, *measured);
+  return signature == nullptr ? FoundResult() : resultAfter(*signature, *measured, name);
+}
+
 } // namespace
 
 bool MacroBlocks::overwritesResults(const ir::CycleStatement& statement) const {
@@ -63,9 +70,7 @@ const std::vector<Lasts>& MacroBlocks::lasts() {
 }
 
 FoundResult MacroBlocks::after(const ir::CycleStatement* measured, ir::ResultName name) const {
-  const stdlib::MacroSignature* signature =
-      measured == nullptr ? nullptr : signatureOf(state_.options.macros, *measured);
-  return signature == nullptr ? FoundResult() : resultAfter(*signature, *measured, name);
+  return resultIn(state_.options.macros, measured, name);
 }
 
 bool MacroBlocks::leadsStraight(const std::vector<std::vector<std::size_t>>& next, std::size_t from,
@@ -158,12 +163,7 @@ bool MacroBlocks::comparesAlike(const ir::CycleStatement& statement) {
     const auto* result = std::get_if<ir::MeasuredResult>(&node.node);
     if (result == nullptr) return;
     for (const ir::CycleStatement* measured : before) {
-      const auto* source = measured == nullptr ? nullptr : signatureOf(*state_.options.source, *measured);
-      if (source == nullptr) {
-        alike = false;
-        continue;
-      }
-      const FoundResult there = resultAfter(*source, *measured, result->name);
+      const FoundResult there = resultIn(*state_.options.source, measured, result->name);
       const FoundResult here = after(measured, result->name);
       alike = alike && there.result != nullptr && here.result != nullptr && !there.instead && !here.instead &&
               there.result->variable == here.result->variable;
@@ -180,9 +180,7 @@ bool MacroBlocks::comparesOthers(const ir::CycleStatement& statement) {
     const auto* result = std::get_if<ir::MeasuredResult>(&node.node);
     if (result == nullptr) return;
     for (const ir::CycleStatement* measured : before) {
-      const auto* source = measured == nullptr ? nullptr : signatureOf(*state_.options.source, *measured);
-      const FoundResult there =
-          source == nullptr ? FoundResult() : resultAfter(*source, *measured, result->name);
+      const FoundResult there = resultIn(*state_.options.source, measured, result->name);
       known = known && there.result != nullptr && !there.instead &&
               compared_.emplace(there.result->variable, result->name).first->second == result->name;
     }
