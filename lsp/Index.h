@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -74,6 +75,7 @@ struct Index {
   // Names with this beginning keep their meaning where all occurrences of this index are renamed; what is not
   // listed is known elsewhere, too.
   std::vector<std::string> renamable;
+  std::set<std::string> taken; // names that no other one gets, beside those of occurrences of its kind
   std::vector<std::uint32_t> programs; // of Macro B: where each begins
   bool computedJumps = false;          // a GOTO whose number is computed
 

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <set>
 
 namespace dotek::lsp {
 
@@ -24,6 +25,7 @@ public:
 
   void post() {
     names();
+    renames();
     properties();
     for (const auto& [name, symbol] : post_.scopes.scopes.front().names)
       topLevel(*symbol);
@@ -55,6 +57,42 @@ private:
       if (std::string fact = factOf(*use.symbol); !fact.empty())
         index_.facts.push_back({range(*use.name), std::move(fact)});
     }
+  }
+
+  // A name that only this script sees. The engine calls functions and reads variables by their names, other
+  // scripts see what is outside of functions, and a name that is a property's too cannot change alone.
+  void renames() {
+    std::set<std::uint32_t> asProperty;
+    bool elsewhere = false; // another script, or a text that is run
+    for (const fusion::Node& node : post_.tree.nodes) {
+      if (node.is(Kind::Property) && node.flag) asProperty.insert(node.begin);
+      if (!node.is(Kind::Call) && !node.is(Kind::New)) continue;
+      const std::string called = lint::calledName(node);
+      elsewhere = elsewhere || called == "include" || called == "eval" || called == "Function";
+    }
+    std::set<const fusion::Symbol*> fixed;
+    for (const fusion::Use& use : post_.scopes.uses)
+      if (use.name != nullptr && asProperty.contains(use.name->begin)) fixed.insert(use.symbol);
+    for (const fusion::Symbol& symbol : post_.scopes.symbols) {
+      if (symbol.declaration == nullptr) continue;
+      const bool local = symbol.scope != nullptr && symbol.scope->parent != nullptr;
+      const bool known =
+          post_.names->all.contains(symbol.name) || symbol.name == "properties" || symbol.name == "arguments";
+      if (fixed.contains(&symbol) || asProperty.contains(symbol.declaration->begin)) continue;
+      if (local || (!known && !elsewhere)) index_.renamable.push_back(keyOf(symbol));
+    }
+    for (const fusion::Symbol& symbol : post_.scopes.symbols)
+      index_.taken.insert(index_.utf8(symbol.name));
+    index_.taken.insert(post_.names->all.begin(), post_.names->all.end());
+    for (const char* word :
+         {"arguments", "await",      "break",   "case",    "catch",      "class",     "const",
+          "continue",  "debugger",   "default", "delete",  "do",         "else",      "enum",
+          "eval",      "export",     "extends", "false",   "finally",    "for",       "function",
+          "if",        "implements", "import",  "in",      "instanceof", "interface", "let",
+          "new",       "null",       "package", "private", "protected",  "public",    "return",
+          "static",    "super",      "switch",  "this",    "throw",      "true",      "try",
+          "typeof",    "undefined",  "var",     "void",    "while",      "with",      "yield"})
+      index_.taken.insert(word);
   }
 
   // What it is to the engine, and how the post declares it.

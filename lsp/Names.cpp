@@ -162,6 +162,7 @@ void checkName(const Occurrence& one, const std::string& name, const Index& inde
   if (!good)
     throw Refusal{kRequestFailed, number ? "a block number has digits only"
                                          : "a name has letters, digits and `_`, and begins with no digit"};
+  if (index.taken.contains(name)) throw Refusal{kRequestFailed, "`" + name + "` is in use"};
   const std::string key = one.key.substr(0, one.key.rfind(' ') + 1) + name;
   for (const Occurrence& other : index.occurrences)
     if (other.key == key) throw Refusal{kRequestFailed, "`" + name + "` is in use"};

@@ -187,7 +187,7 @@ std::unique_ptr<CaseRunner::Values> CaseRunner::check(verify::Case drawn, bool s
   if (stopped_) return nullptr;
   session_.diagnostics() = Diagnostics();
   auto out = std::unique_ptr<Values>(
-      new Values{std::move(drawn), *fields_, {}, {}, false, "", {}, {}, {}, false, nullptr, {}});
+      new Values{std::move(drawn), *fields_, {}, {}, false, "", {}, {}, {}, false, 0, nullptr, {}});
   for (const auto& [name, value] : out->drawn.values)
     out->fields.set(name, value, {});
   if (settle) roundHosts(out->drawn);
@@ -472,6 +472,7 @@ verify::Case CaseRunner::settled(verify::Case drawn) {
 bool CaseRunner::post(Values& values) {
   compost::PostSettings settings{session_.sources(), *inputs_->form, session_.limits(),
                                  options_.common.assume};
+  settings.printsRests = true;
   compost::PostRun run(*inputs_->program, settings, session_.diagnostics());
   compost::Operation now;
   now.cycle = folder_->name;
@@ -515,8 +516,14 @@ bool CaseRunner::readPosted(Values& values) {
       posted->file.programs,
       {sourceSet_, session_.macroSet(plan_.targetMacros, inputs_->control ? &*inputs_->control : nullptr)});
   if (sourceSet_ == nullptr && plan_.findsMacros) findMacros(program);
-  if (sourceSet_ != nullptr && plan_.sourceMacros != plan_.targetMacros && halvesBetweenSteps(program))
-    values.losesDigits = true;
+  const bool others = plan_.sourceMacros != plan_.targetMacros;
+  if (sourceSet_ != nullptr && others && halvesBetweenSteps(program)) values.losesDigits = true;
+  values.rounding = roundingOf(program, others || target_ == nullptr);
+  for (const ir::ProgramStatement& statement : program.body)
+    if (std::holds_alternative<ir::Raise>(statement.node)) {
+      const SourceRange at = sourceOf(statement.origin.range(), values);
+      if (at.hasPlace()) branchAlarms_.try_emplace({at.file, at.begin}, at);
+    }
   posted->code = sim::compile({&program}, *inputs_->sourceControl, posted->sources);
   posted->watching = sim::safeMoves({&program}, *inputs_->sourceControl);
   values.posted = std::move(posted);

@@ -68,6 +68,7 @@ public:
 
   std::vector<std::pair<std::string, SourceRange>> droppedDigits(const verify::Case& drawn) override;
   std::vector<Rejection> rejections() const override;
+  std::vector<SourceRange> alarms() const override;
   VerifySides sides() const override;
   std::optional<CasePictures> pictures(const verify::Case& drawn) override;
 
@@ -83,6 +84,7 @@ private:
   void askConversion(std::uint64_t index);
   bool passesUnstated() const;
   bool halvesBetweenSteps(const ir::Program& program) const;
+  double roundingOf(const ir::Program& program, bool byWords) const;
   verify::Case settled(verify::Case drawn);
   void takeSelected(verify::Case& drawn, bool others);
   verify::Case coarser(verify::Case drawn, double unit) const;
@@ -122,6 +124,8 @@ private:
   bool meetsLimit(const Values& values, bool probeOn);
   void runAtBounds(const verify::Case& drawn, CaseResult& result);
   void addFinding(CaseResult& result, const verify::Difference& difference, const Values& values) const;
+  CaseResult runOne(const verify::Case& drawn);
+  void noteAlarm(const verify::Record& source, const Values& values);
   void noteEndless(const verify::Case& drawn);
   void noteStopped(const TargetRun& ran, const verify::Case& drawn);
   void takeRun(CaseResult& result, TargetRun ran, const Values& values) const;
@@ -139,6 +143,8 @@ private:
   std::optional<FieldTable> fields_;
   std::optional<verify::Draws> draws_;
   std::optional<verify::Draws> wide_; // limits of what is measured are often far beyond it
+  std::map<std::pair<FileId, std::uint32_t>, SourceRange> branchAlarms_; // that the Prog prints, by place
+  std::vector<SourceRange> met_; // of these, in which runs have ended since the last result
   std::string refusal_;
   SourceRange refusedAt_;   // by a check
   Rejections rejected_;     // of the last draw()

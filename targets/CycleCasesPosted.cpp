@@ -70,6 +70,32 @@ bool CaseRunner::halvesBetweenSteps(const ir::Program& program) const {
   return false;
 }
 
+// Places between two steps of the control, to which other macros, a fragment's formats and the control come
+// by rounded words. `byWords`: such macros are compared, or the path.
+double CaseRunner::roundingOf(const ir::Program& program, bool byWords) const {
+  constexpr double kSame = 1e-3, kFine = 1e6;                          // of a step; steps in a mm
+  const double steps = std::pow(10, inputs_->sourceControl->decimals); // in a mm
+  const auto between = [](double value, double unit) {
+    return std::abs(value * unit - std::round(value * unit)) > kSame;
+  };
+  bool coarse = false, rest = false;
+  const auto look = [&](const ir::ExpressionPtr& expression) {
+    const double* value = expression ? ir::constantValue(expression) : nullptr;
+    if (value == nullptr) return;
+    coarse = coarse || between(*value, steps);
+    rest = rest || between(*value, kFine);
+  };
+  for (const ir::ProgramStatement& statement : program.body) {
+    if (const auto* call = std::get_if<ir::Call>(&statement.node))
+      for (const ir::CallArgument& given : call->arguments)
+        look(given.value);
+    if (const auto* block = std::get_if<ir::NcBlock>(&statement.node))
+      for (const ir::Word& word : block->words)
+        if (word.address >= 'X' && word.address <= 'Z') look(word.value);
+  }
+  return rest || (coarse && byWords) ? 1 / steps : 0;
+}
+
 // The one set that knows all macros which the posted program calls.
 void CaseRunner::findMacros(const ir::Program& program) {
   std::set<std::uint32_t> called;

@@ -34,6 +34,7 @@ TargetRun CaseRunner::runTarget(const Values& values, sim::World& world, bool pr
   now.shown = shown;
   now.rejected = values.rejected;
   now.rejection = values.rejection;
+  now.rounding = values.rounding;
   now.inItsDatums = [&] { return runPosted(values, world, probeOn, verify::Stand::Way::MovePath); };
   now.sourceOf = [&](SourceRange posted) { return sourceOf(posted, values); };
   now.lines = values.lines;
@@ -155,6 +156,26 @@ void CaseRunner::addFinding(CaseResult& result, const verify::Difference& differ
 }
 
 CaseResult CaseRunner::run(const verify::Case& drawn) {
+  CaseResult result = runOne(drawn);
+  result.alarms = met_;
+  if (!result.ofValues) met_.clear(); // else another one is drawn in its place, which takes them over
+  return result;
+}
+
+void CaseRunner::noteAlarm(const verify::Record& source, const Values& values) {
+  if (source.ending == verify::Ending::Alarm && source.alarmKind.empty())
+    met_.push_back(sourceOf(source.endedAt, values));
+}
+
+std::vector<SourceRange> CaseRunner::alarms() const {
+  std::vector<SourceRange> out;
+  if (target_ == nullptr) return out; // a path raises none
+  for (const auto& [place, alarm] : branchAlarms_)
+    out.push_back(alarm);
+  return out;
+}
+
+CaseResult CaseRunner::runOne(const verify::Case& drawn) {
   CaseResult result;
   const bool probeOn = options_.common.assume.contains("probe-on");
   std::unique_ptr<Values> values = std::move(drawn_); // of draw()
@@ -199,6 +220,7 @@ CaseResult CaseRunner::run(const verify::Case& drawn) {
       return result;
     }
     source = runPosted(*values, world, probeOn, verify::Stand::Way::Run);
+    noteAlarm(*source, *values);
     // Of a case that was drawn before: what it measures is compared with the path again.
     if (!drawn.edge && values->path && !values->rehearsal && !whyNotMeasured(*values).empty())
       values->rehearsal.reset();
@@ -250,7 +272,7 @@ CaseResult CaseRunner::run(const verify::Case& drawn) {
       runAtBounds(drawn, result);
   } else if (values->path && !values->rejected) {
     for (const verify::Difference& difference :
-         verify::compare(*values->path, {}, *source, options_.tolerance))
+         verify::compare(*values->path, {}, *source, std::max(options_.tolerance, values->rounding)))
       addFinding(result, difference, *values);
   }
   result.verdict = !result.findings.empty() ? CaseVerdict::Differ
@@ -308,7 +330,7 @@ void CaseRunner::takeRun(CaseResult& result, TargetRun ran, const Values& values
 void CaseRunner::comparePath(CaseResult& result, const Values& values) const {
   if (!values.path || !values.rehearsal) return;
   for (const verify::Difference& difference :
-       verify::compare(*values.path, {}, *values.rehearsal, options_.tolerance)) {
+       verify::compare(*values.path, {}, *values.rehearsal, std::max(options_.tolerance, values.rounding))) {
     if (difference.aspect != verify::Aspect::Nominal) continue;
     addFinding(result, difference, values);
   }

@@ -163,6 +163,7 @@ SourceQuestions::Ran CaseRunner::Questions::disturbed(const verify::Interference
   if (!values_.posted) return out;
   out.record = runner_.runPosted(values_, world_, runner_.entryOf(values_, probeOn_), verify::Stand::Way::Run,
                                  interference);
+  runner_.noteAlarm(out.record, values_);
   if (out.record.ending != verify::Ending::Inconclusive) out.answer = Answer::Runs;
   return out;
 }
@@ -174,6 +175,7 @@ void CaseRunner::Questions::elsewhere(const verify::PartError& more, const Growt
   if (!part) return;
   sim::World world(*part, probeFor(runner_.plan_, values_.drawn));
   const verify::Record record = runner_.runPosted(values_, world, probeOn_, verify::Stand::Way::Run);
+  runner_.noteAlarm(record, values_);
   if (record.ending != verify::Ending::Inconclusive) look(record, world);
 }
 

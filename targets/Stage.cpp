@@ -183,6 +183,11 @@ void allowForDatums(verify::CompareRules& rules, const verify::Record& source, c
   rules.results = std::max(rules.results, rounded); // contacts on round or turned surfaces follow
 }
 
+void allowForRounding(verify::CompareRules& rules, const TargetCase& now) {
+  rules.tolerance = std::max(rules.tolerance, now.rounding);
+  rules.results = std::max(rules.results, now.rounding);
+}
+
 double resultTolerance(const stdlib::Control& one, const stdlib::Control& other) {
   constexpr double kEightDigits = 5e-5;
   const auto digits = [](const stdlib::Control& control) {

@@ -38,6 +38,8 @@ inline constexpr double kReach = 12;
 // macros of two sets (nullptr: none).
 verify::CompareRules programRules(const VerificationSource& from, const stdlib::Control& control,
                                   const stdlib::MacroSet* sourceSet, const stdlib::MacroSet* set);
+// Words of one side are rounded where those of the other are not (TargetCase::rounding).
+void allowForRounding(verify::CompareRules& rules, const TargetCase& now);
 // `rules` for a run of the source from `entry`: what follows a write of the active system is as exact as the
 // control computes it. `byText`: the target's macros run by their text on `control`.
 void allowForDatums(verify::CompareRules& rules, const verify::Record& source, const verify::Entry& entry,

@@ -103,6 +103,7 @@ struct TargetCase {
   ShownRun* shown = nullptr;                                 // to be filled; nullptr: nobody looks
   // A number that is the same for the same values, for what the caller has in force.
   std::uint64_t stream = 0;
+  double rounding = 0; // mm, by which words of one side may be rounded where the other's are not
 };
 
 // The source's run as it usually is, beside one that `other` begins: where that has another tool length in

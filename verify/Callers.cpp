@@ -158,6 +158,7 @@ std::vector<BrokenCaller> brokenCallers(const Control& control, bool shiftOfZ,
       BrokenCaller caller;
       caller.who = fmt::format("after {} {}{}", code, axis, text);
       caller.alarm = "LOCAL SHIFT ACTIVE";
+      caller.shifts = axis;
       caller.blocks = fmt::format("{}{}{}\n", code, axis, text);
       caller.away = from(axis, by);
       out.push_back(std::move(caller));

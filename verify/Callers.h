@@ -29,6 +29,7 @@ struct BrokenCaller {
   std::string blocks;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> modal;
   sim::Point3 away = {};     // of his place beside Entry::start; with a shift his coordinates are the same
+  char shifts = 0;           // the axis along which a local shift is in force; 0: none
   bool ofToolLength = false; // not demanded by a program that puts a length in force itself
 };
 // `shiftOfZ`: the program writes an offset along Z by itself, so no shift of Z may be in force either.

@@ -218,9 +218,9 @@ struct Record {
   bool motionOfMacro = false, feedOfMacro = false;
   SourceRange lastBlock;       // that ran
   std::vector<EarlyUse> early; // each place once
-  // Measures before the program writes an offset of Z for the first time, not within a call; nothing: it does
-  // not.
-  std::optional<std::size_t> ownOffsetOfZ;
+  // By axis, measures before the program writes an offset along it for the first time, not within a call;
+  // nothing: it does not.
+  std::array<std::optional<std::size_t>, 3> ownOffsets{};
   std::vector<sim::PictureMove> moves; // every motion, for pictures; only where asked for
 };
 

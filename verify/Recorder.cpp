@@ -464,8 +464,12 @@ void Recorder::touchBegins(std::span<const sim::PlannedTouch> touches) {
 }
 
 void Recorder::offsetWritten(const sim::OffsetWrite& write) {
-  if (call_.depth == 0 && write.name.ends_with(" Z") && !record_.ownOffsetOfZ)
-    record_.ownOffsetOfZ = record_.measures.size();
+  constexpr std::string_view kAxes = "XYZ";
+  const std::size_t axis = write.name.size() > 1 && write.name[write.name.size() - 2] == ' '
+                               ? kAxes.find(write.name.back())
+                               : std::string_view::npos;
+  if (call_.depth == 0 && axis != std::string_view::npos && !record_.ownOffsets[axis])
+    record_.ownOffsets[axis] = record_.measures.size();
   std::string name = write.name;
   // Length, geometry and wear make one offset.
   if (name.starts_with("tool ")) {

@@ -63,7 +63,7 @@ void FanucVerification::callOtherwise(const TargetCase& now, const verify::Entry
     out.differs(verify::Aspect::Ending, why);
   if (const std::string why = whyHeaderDiffers(translation_.converted, translation_.text); !why.empty())
     out.differs(verify::Aspect::Variable, why);
-  const bool writesZ = ran.ownOffsetOfZ && (now.source == nullptr || !now.source->ownOffsetOfZ);
+  const bool writesZ = ran.ownOffsets[2] && (now.source == nullptr || !now.source->ownOffsets[2]);
   for (const verify::BrokenCaller& caller : verify::brokenCallers(control_, writesZ, fixedStarts())) {
     if (caller.ofToolLength && loadsTool(now)) continue;
     verify::Entry broken = entry;

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <optional>
 #include <set>
+#include <utility>
 #include <vector>
 
 namespace dotek::targets {
@@ -97,6 +98,33 @@ std::string lettersOfCall(std::string_view program) {
   return out;
 }
 
+// Digits after `before` where a text begins with it and they end at a blank, a bracket or its end.
+std::string numberAfter(std::string_view text, std::string_view before) {
+  if (!text.starts_with(before)) return "";
+  const std::size_t begin = before.size();
+  const std::size_t end = std::min(text.find_first_not_of("0123456789", begin), text.size());
+  return end == begin || (end < text.size() && text[end] != ' ' && text[end] != '(')
+             ? ""
+             : std::string(text.substr(begin, end - begin));
+}
+
+// The number that the call in the header names, and that of the program, without zeros in front. "": none.
+std::pair<std::string, std::string> numbersOf(std::string_view program) {
+  std::pair<std::string, std::string> out;
+  for (const std::string_view comment : commentsOf(program))
+    if (out.first.empty()) out.first = numberAfter(comment, "CALL: G65 P");
+  for (std::size_t at = 0; at < program.size() && out.second.empty();) {
+    const std::size_t end = std::min(program.find('\n', at), program.size());
+    std::string_view line = program.substr(at, end - at);
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    out.second = numberAfter(line, "O");
+    at = end + 1;
+  }
+  for (std::string* one : {&out.first, &out.second})
+    one->erase(0, std::min(one->find_first_not_of('0'), one->size()));
+  return out;
+}
+
 } // namespace
 
 std::string whyHeaderDiffers(std::string_view converted, std::string_view edited) {
@@ -116,6 +144,9 @@ std::string whyHeaderDiffers(std::string_view converted, std::string_view edited
         return fmt::format("the header gives the meaning of {} to {}: `{}`", other.letter, row.letter,
                            meaning);
   }
+  if (const auto [called, program] = numbersOf(edited);
+      !called.empty() && !program.empty() && called != program)
+    return fmt::format("the call in the header names program {}, and the program is O{}", called, program);
   const std::string letters = lettersOfCall(edited), own = lettersOfCall(converted);
   if (!letters.empty() && !own.empty() &&
       std::set(letters.begin(), letters.end()) != std::set(own.begin(), own.end()))

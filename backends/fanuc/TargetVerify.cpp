@@ -221,6 +221,7 @@ verify::CompareRules FanucVerification::rulesFor(const TargetCase& now, const ve
     rules.tolerance = std::max(rules.tolerance, rounded);
     rules.results = std::max(rules.results, rounded);
   }
+  allowForRounding(rules, now);
   // Of eight digits the last one is a ten millionth at most; two of them.
   rules.relative = rules.results > from_.options.tolerance ? 2e-7 : 0;
   rules.mayRestoreModes = true;

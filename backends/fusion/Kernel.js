@@ -490,11 +490,19 @@ function dotekRun(input) {
       return global[name].apply(null, list || []);
     }
   }
-  var taken, kept = [], defined = {}, offered = [], scopes = {}, titles = {}, entries, entry;
+  var taken, kept = [], defined = {}, offered = [], scopes = {}, titles = {}, groups = {}, entries, entry;
   for (var name in input.entry === undefined ? {} : properties) {
     if (typeof properties[name] === "object" && properties[name] !== null &&
       typeof properties[name].title === "string") {
       titles[name] = properties[name].title;
+    }
+    if (typeof properties[name] === "object" && properties[name] !== null &&
+      typeof properties[name].group === "string" && groupDefinitions[properties[name].group] === undefined) {
+      for (var group in groupDefinitions) {
+        if (group.toLowerCase() === properties[name].group.toLowerCase()) {
+          groups[name] = properties[name].group;
+        }
+      }
     }
     if (typeof properties[name] === "object" && properties[name] !== null &&
       properties[name].value !== undefined) {
@@ -557,7 +565,7 @@ function dotekRun(input) {
   }
   return {text: dotekState.before.join("") + dotekState.text, errors: dotekState.errors,
     warnings: dotekState.warnings, afterError: dotekState.afterError, taken: taken, kept: kept,
-    defined: defined, offered: offered, scopes: scopes, titles: titles};
+    defined: defined, offered: offered, scopes: scopes, titles: titles, groups: groups};
 }
 
 // ---- what Dotek calls -----------------------------------------------------------------------------------
@@ -626,6 +634,9 @@ function dotekRun(input) {
     }
     for (name in result.titles) {
       out[out.length] = "n" + name + "=" + result.titles[name];
+    }
+    for (name in result.groups) {
+      out[out.length] = "g" + name + "=" + result.groups[name];
     }
     for (i = 0; i < result.offered.length; ++i) {
       out[out.length] = "o" + result.offered[i];

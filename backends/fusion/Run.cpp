@@ -102,6 +102,8 @@ RunResult Fragment::run(const RunInput& input) const {
       out.scopes[texts[i].substr(1, equals - 1)] = texts[i].substr(equals + 1);
     else if (kind == 'n' && equals != std::string::npos)
       out.titles[texts[i].substr(1, equals - 1)] = texts[i].substr(equals + 1);
+    else if (kind == 'g' && equals != std::string::npos)
+      out.lostGroups[texts[i].substr(1, equals - 1)] = texts[i].substr(equals + 1);
     else if (kind == 'o' && equals != std::string::npos) {
       const std::size_t second = std::min(texts[i].find('=', equals + 1), texts[i].size());
       out.offered[texts[i].substr(1, equals - 1)].emplace_back(

@@ -41,6 +41,8 @@ struct RunResult {
   std::map<std::string, std::string> defined; // of a fragment: `value` of each property that has one
   std::map<std::string, std::string> scopes;  // of each of them, "operation"
   std::map<std::string, std::string> titles;  // of a fragment: `title` of each property, UTF-8
+  // Of a fragment: `group` of each property that has none, but for the case of its letters.
+  std::map<std::string, std::string> lostGroups;
   // Of a fragment: what the list of each such property offers, `id` and `title`.
   std::map<std::string, std::vector<std::pair<std::string, std::string>>> offered;
   std::vector<std::string> kept;      // of a fragment: outputs of the post that were not reset

@@ -78,6 +78,10 @@ void OperationDemands::compareChoice(const fusion::RunResult& result, TargetRun&
     if ((name == kChoice || name.starts_with(prefix_ + "_")) && scope != "operation")
       differs(fmt::format("the property `{}` has the scope `{}`: one operation could not have its own value",
                           name, scope));
+  for (const auto& [name, group] : result.lostGroups)
+    if (name == kChoice || name.starts_with(prefix_ + "_"))
+      differs(fmt::format("the property `{}` is in the group `{}`, which `groupDefinitions` spells otherwise",
+                          name, group));
 }
 
 // The operation of another cycle, a document in inches, an operation that the post surrounds with calls, a

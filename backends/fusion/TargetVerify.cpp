@@ -289,17 +289,22 @@ private:
                        [](const verify::Measure& one) { return one.contacts.empty(); });
   }
 
-  // A local shift of Z where the fragment writes an offset along it and the source does not: what it computes
-  // would hold the shift.
+  // A local shift along an axis where the fragment writes an offset of it and the source does not: what it
+  // computes would hold the shift.
   void runShifted(const Compiled& made, const TargetCase& now, const verify::Record& ran, TargetRun& out) {
-    if (!out.differences.empty() || !ran.ownOffsetOfZ || now.source->ownOffsetOfZ) return;
+    if (!out.differences.empty()) return;
+    constexpr std::string_view kAxes = "XYZ";
     for (const verify::BrokenCaller& caller : verify::brokenCallers(control_, true)) {
-      if (caller.blocks.find('Z') == std::string::npos) continue;
+      const std::size_t axis = kAxes.find(caller.shifts);
+      if (axis == std::string_view::npos || !ran.ownOffsets[axis] || now.source->ownOffsets[axis]) continue;
+      // The check comes after the measure, which a large shift sideways leads past its surface.
+      constexpr double kAside = 1; // mm
+      if (axis != 2 && caller.away.length() > kAside) continue;
       verify::Entry broken = now.entry;
       broken.blocks = caller.blocks;
       const verify::Record record = runCode(made, now, broken);
       const bool stops = record.ending == verify::Ending::Alarm && caller.alarm.starts_with(record.text) &&
-                         !record.text.empty() && record.measures.size() < *ran.ownOffsetOfZ;
+                         !record.text.empty() && record.measures.size() < *ran.ownOffsets[axis];
       if (!stops)
         out.differs(verify::Aspect::Ending, fmt::format("printed {}: `{}` has to stop it before it measures",
                                                         caller.who, caller.alarm));
@@ -326,6 +331,7 @@ private:
   verify::CompareRules rulesFor(const TargetCase& now, const verify::Record& source) const {
     verify::CompareRules rules = programRules(from_, control_, sourceSet_, set_);
     allowForDatums(rules, source, now.entry, control_, macros_.has_value());
+    allowForRounding(rules, now);
     const bool given = from_.plan.fixedHosts.contains("overtravel");
     if (const auto host = now.drawn.hosts.find("overtravel");
         given && sourceSet_ != set_ && host != now.drawn.hosts.end())

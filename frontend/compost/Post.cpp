@@ -6,11 +6,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 
 namespace dotek::frontend::compost {
 namespace {
 
 constexpr double kArithmeticRest = 1e-9; // mm; below what any control counts
+
+// Ends beyond the sixth decimal, as the cosine of an angle does.
+bool hasRest(double value) {
+  constexpr double kPlaces = 1e6;
+  return std::abs(value * kPlaces - std::round(value * kPlaces)) > kArithmeticRest * kPlaces;
+}
 
 bool isPrintableAscii(std::string_view text) {
   return std::all_of(text.begin(), text.end(), [](char c) { return c >= ' ' && c <= '~'; });
@@ -20,7 +27,8 @@ bool isPrintableAscii(std::string_view text) {
 
 PostRun::Impl::Impl(const Program& program, const PostSettings& settingsIn, Diagnostics& diagnosticsIn)
     : FormWalk(program, settingsIn.form, settingsIn.assumptions, settingsIn.limits, diagnosticsIn),
-      sequence(settingsIn.sequenceStart), sequenceStep(settingsIn.sequenceStep) {}
+      sequence(settingsIn.sequenceStart), sequenceStep(settingsIn.sequenceStep),
+      printsRests(settingsIn.printsRests) {}
 
 PostRun::PostRun(const Program& program, const PostSettings& settings, Diagnostics& diagnostics)
     : impl_(std::make_unique<Impl>(program, settings, diagnostics)) {}
@@ -120,6 +128,10 @@ void PostRun::Impl::printValue(double value, const Picture& picture, std::string
     return;
   case Picture::Fit::LosesDecimals:
     // 15 - 25.4/2 - 3 is -0.7 and a rest of the arithmetic, which nobody typed.
+    if (printsRests && hasRest(value)) {
+      text(fmt::format("{:.9f}", value), where);
+      return;
+    }
     if (std::abs(value - printed.value.value()) > kArithmeticRest)
       diagnostics_->report<diag::LostDecimals>(where, what, numberText(value), picture.text(),
                                                numberText(printed.value.value()));

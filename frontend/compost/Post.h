@@ -38,6 +38,9 @@ struct PostSettings {
   std::set<std::string> assumptions; // `--assume`
   std::uint64_t sequenceStart = 10;
   std::uint64_t sequenceStep = 10;
+  // Values with more than six decimals, as a cosine has, are printed in full where the picture would round
+  // them: two sides of a comparison get the same.
+  bool printsRests = false;
 };
 
 // Flags, sequence number and the open line live from the first routine to the last.

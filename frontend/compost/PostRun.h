@@ -26,6 +26,7 @@ private:
   const Operation* operation = nullptr;
   std::uint64_t sequence = 0;
   std::uint64_t sequenceStep = 0;
+  bool printsRests = false;
   std::string line;
   bool numberOnly = false; // nothing but a block number is in `line`
   SourceRange lineRange;

@@ -77,7 +77,8 @@ private:
   bool setSystem();
   bool setTool();
   void writeResults();
-  void leaveUnstated(std::uint32_t variable); // what no source says that it holds
+  // What no source says that it holds; where what it stands for is stated, a value near that.
+  void leaveUnstated(std::uint32_t variable, std::optional<Output> meaning = std::nullopt);
   std::optional<std::uint32_t> offsetVariable(std::uint32_t system, bool extended, ir::Axis axis) const;
 
   Machine& machine_;

@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kNothing = 1e-9; // no difference of lengths on a grid of a nanometre
 constexpr double kNoContact = 2;  // #149 of a touch that was told to raise no alarm
+constexpr double kQuarter = 90;   // degrees
 constexpr std::uint32_t kFirstSystem = 54, kSystems = 6;
 
 std::string fixed(double value) {
@@ -208,7 +209,7 @@ bool VendorRun::setTool() {
   return true;
 }
 
-void VendorRun::leaveUnstated(std::uint32_t variable) {
+void VendorRun::leaveUnstated(std::uint32_t variable, std::optional<Output> meaning) {
   if (!memory_.passUnstated) return machine_.forget(variable);
   // The same where the control has the variables of the set elsewhere.
   std::uint64_t place = variable, block = 0;
@@ -219,13 +220,19 @@ void VendorRun::leaveUnstated(std::uint32_t variable) {
   constexpr std::uint64_t kMix = 0x9E37'79B9'7F4A'7C15ULL;
   std::uint64_t mixed = (std::uint64_t{memory_.measured} << 32U | place) * kMix;
   // Another one with other values of the call, coarser than their last digits.
+  std::uint64_t call = memory_.measured;
   for (const double local : locals_)
     if (!isNull(local) && !isUnknown(local) && std::abs(local) < 1e6)
-      mixed = (mixed ^ static_cast<std::uint64_t>(std::llround(local * 8))) * kMix;
+      for (std::uint64_t* one : {&mixed, &call})
+        *one = (*one ^ static_cast<std::uint64_t>(std::llround(local * 8))) * kMix;
   mixed ^= mixed >> 29U;
   // Programs ask for 0 as for nothing found wrong.
   const bool none = (mixed >> 40U) % 3 == 0;
-  machine_.writeMeasured(variable, none ? 0 : (static_cast<double>(mixed % 2001) - 1000) / 1000);
+  // The two faces of a corner are near an axis each.
+  const bool turned = (call >> 40U) % 2 == 1;
+  const bool along = (meaning == Output::Angle && turned) || (meaning == Output::AngleY && !turned);
+  const double near = along ? kQuarter : 0;
+  machine_.writeMeasured(variable, near + (none ? 0 : (static_cast<double>(mixed % 2001) - 1000) / 1000));
 }
 
 void VendorRun::writeResults() {
@@ -240,7 +247,7 @@ void VendorRun::writeResults() {
     const auto holds = result.documented ? std::optional<Output>(result.output) : result.taken;
     const auto found = holds ? found_.find(*holds) : found_.end();
     if (found == found_.end()) {
-      leaveUnstated(result.variable);
+      leaveUnstated(result.variable, result.documented ? std::optional(result.output) : std::nullopt);
       continue;
     }
     if (!result.documented)

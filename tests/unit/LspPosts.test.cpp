@@ -78,3 +78,38 @@ TEST_CASE("lsp: a post of Fusion: symbols, hover, definition, completion, findin
                {"contentChanges", {{{"range", edit["range"]}, {"text", edit["newText"]}}}}});
   CHECK(client.findings(path).size() == found.size() - 1);
 }
+
+TEST_CASE("lsp: names that only a post sees are renamed in it") {
+  const TestFolder folder("lsp-cps-rename");
+  const std::string path = folder.write("mill.cps", kPost);
+  Client client;
+  client.open(path, kPost);
+  const auto rename = [&](const std::string& file, int line, int character, const char* name) {
+    Json params = at(file, line, character);
+    params["newName"] = name;
+    const Json answer = client.ask("textDocument/rename", params);
+    return answer.contains("error") ? std::size_t{0} : answer["result"]["changes"][uriOf(file)].size();
+  };
+  CHECK(rename(path, 5, 5, "millimetres") == 2);
+  CHECK(rename(path, 6, 15, "number") == 2);  // a parameter
+  CHECK(rename(path, 11, 11, "axis") == 2);   // a function, from its call
+  CHECK(rename(path, 9, 10, "open") == 0);    // the engine calls it
+  CHECK(rename(path, 0, 2, "text") == 0);     // and reads this
+  CHECK(rename(path, 10, 20, "blocks") == 0); // jobs name it
+  for (const char* taken : {"word", "createFormat", "var", "onClose", "value", "1st"}) {
+    CAPTURE(taken);
+    CHECK(rename(path, 5, 5, taken) == 0);
+  }
+  // Where another script is read, what is outside of functions may be used there.
+  const std::string more = "include(\"other.cps\");\n" + kPost;
+  const std::string including = folder.write("more.cps", more);
+  client.open(including, more);
+  CHECK(rename(including, 6, 5, "millimetres") == 0);
+  CHECK(rename(including, 7, 15, "number") == 2);
+  const std::string both =
+      "function onOpen() {\n  var one = 1, two = 2;\n  writeln({one, other: two}.one);\n}\n";
+  const std::string pair = folder.write("pair.cps", both);
+  client.open(pair, both);
+  CHECK(rename(pair, 1, 7, "first") == 0); // the name of the property, too
+  CHECK(rename(pair, 1, 16, "second") == 2);
+}

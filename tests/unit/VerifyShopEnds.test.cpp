@@ -87,7 +87,8 @@ TEST_CASE("verify: the header of a translation says what its arguments are") {
            {"TOP Z, WHERE THE STOCK TOP)\n(                                      SHOULD BE)",
             "ALLOW LOW, LOWER THAN THIS: NO)\n(                                      PART)"}, // of another
                                                                                               // one
-           {"(CALL: G65 P8000 A0. B3. ", "(CALL: G65 P8000 A0. "}}) { // a call that it refuses
+           {"(CALL: G65 P8000 A0. B3. ", "(CALL: G65 P8000 A0. "}, // a call that it refuses
+           {"\nO8000", "\nO8001"}}) {                              // another program than the call names
     CAPTURE(from);
     CHECK(differs(part, replaced(good, from, to)));
   }
@@ -131,6 +132,23 @@ TEST_CASE("convert: results and calibration of a Haas's own macros") {
   const Shop block{"inspection", "JT.Edge.Angle", "probeOps", "fanuc", "inspection-plus", "haas-ngc"};
   CHECK_MESSAGE(agrees(verified(block)), verified(block));
   CHECK(converted(block).find("=#13") == std::string::npos);
+}
+
+TEST_CASE("verify: the check of a local shift along the axis whose offset a fragment writes") {
+  const Shop side{"zones", "HF.Flaeche.Y", "taster", "fusion", "dotek", "fanuc-0i-md"};
+  const std::string good = converted(side);
+  CHECK_MESSAGE(agrees(verified(side)), verified(side));
+  const std::size_t at = good.find("  writeBlock(\"IF[ABS[#5022-#5042");
+  REQUIRE(at != std::string::npos);
+  const std::string line = good.substr(at, good.find('\n', at) + 1 - at);
+  CHECK(differs(side, replaced(good, line, "")));
+}
+
+TEST_CASE("verify: the group of a Fusion property is one that is defined") {
+  const Shop side{"zones", "HF.Flaeche.Y", "taster", "fusion", "dotek", "fanuc-0i-md"};
+  const std::string good = converted(side);
+  CHECK(differs(side, replaced(good, "\n  group: \"hfFlaecheY\"", "\n  group: \"hfflaecheY\"")));
+  CHECK(agrees(verified(side, replaced(good, "\n  group: \"hfFlaecheY\"", "\n  group: \"probing\""))));
 }
 
 } // namespace dotek::tests
