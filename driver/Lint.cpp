@@ -13,6 +13,7 @@
 #include "lint/Baseline.h"
 #include "lint/Config.h"
 #include "lint/PostFile.h"
+#include "lint/PostedBlocks.h"
 #include "lint/Project.h"
 #include "lint/Projects.h"
 #include "lint/Run.h"
@@ -101,7 +102,14 @@ public:
     acceptEntryPoints();
     keepStrongest(session_.diagnostics());
     dropReadsOfUndefined();
-    run([&](const lint::NamedRule& rule) { return !rule.rule->shared && isWantedSomewhere(rule.id); });
+    const auto separate = [&](const lint::NamedRule& rule) {
+      return !rule.rule->shared && isWantedSomewhere(rule.id);
+    };
+    run(separate);
+    for (const lint::Project& project : projects)
+      lint::lintPosted(project, session_.diagnostics(), [&](const lint::NamedRule& rule) {
+        return rule.rule->shared || isWantedSomewhere(rule.id);
+      });
     reportUnknownSets();
     configs_.reportUnused(options_.paths);
     suppress(projects);

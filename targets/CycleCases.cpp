@@ -38,6 +38,13 @@ namespace gibbs = frontend::gibbs;
 
 namespace {
 
+bool movesAxes(const ir::ProgramStatement& statement) {
+  const auto* block = std::get_if<ir::NcBlock>(&statement.node);
+  return block != nullptr && std::any_of(block->words.begin(), block->words.end(), [](const ir::Word& word) {
+           return word.address >= 'X' && word.address <= 'Z';
+         });
+}
+
 // Variables of the control that the program writes by number; of a number that is computed from a constant
 // those near it, which none of the sets works in.
 std::set<std::uint32_t> storesOf(const std::vector<ir::Program>& programs,
@@ -519,11 +526,15 @@ bool CaseRunner::readPosted(Values& values) {
   const bool others = plan_.sourceMacros != plan_.targetMacros;
   if (sourceSet_ != nullptr && others && halvesBetweenSteps(program)) values.losesDigits = true;
   values.rounding = roundingOf(program, others || target_ == nullptr);
-  for (const ir::ProgramStatement& statement : program.body)
-    if (std::holds_alternative<ir::Raise>(statement.node)) {
+  // What it asks of its caller before anything moves is no business of the cases.
+  bool moves = false;
+  for (const ir::ProgramStatement& statement : program.body) {
+    moves = moves || std::holds_alternative<ir::Call>(statement.node) || movesAxes(statement);
+    if (moves && std::holds_alternative<ir::Raise>(statement.node)) {
       const SourceRange at = sourceOf(statement.origin.range(), values);
       if (at.hasPlace()) branchAlarms_.try_emplace({at.file, at.begin}, at);
     }
+  }
   posted->code = sim::compile({&program}, *inputs_->sourceControl, posted->sources);
   posted->watching = sim::safeMoves({&program}, *inputs_->sourceControl);
   values.posted = std::move(posted);

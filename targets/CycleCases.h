@@ -84,6 +84,7 @@ private:
   void askConversion(std::uint64_t index);
   bool passesUnstated() const;
   bool halvesBetweenSteps(const ir::Program& program) const;
+  double pathTolerance(const Values& values) const;
   double roundingOf(const ir::Program& program, bool byWords) const;
   verify::Case settled(verify::Case drawn);
   void takeSelected(verify::Case& drawn, bool others);

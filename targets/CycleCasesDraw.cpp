@@ -4,6 +4,7 @@
 #include "verify/Bounds.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace dotek::targets {
 
@@ -11,6 +12,7 @@ namespace {
 
 constexpr std::uint32_t kAttempts = 2000;    // to find values that the cycle takes
 constexpr std::uint32_t kMoreAttempts = 200; // for others in the place of those
+constexpr std::uint32_t kNearest = 4;        // times that their part's error is halved at most
 // What the checks of the translation reject is not asked of the source, which takes a thousand times as long.
 // It is asked in one case of so many, for checks that were translated wrong, and where many attempts were in
 // vain.
@@ -31,7 +33,10 @@ std::optional<verify::Case> CaseRunner::draw(std::uint64_t index) {
 std::optional<verify::Case> CaseRunner::another(std::uint64_t index) {
   if (options_.replay) return std::nullopt;
   ++others_;
-  return drawFrom(index, tries_, std::min(kAttempts, tries_ + kMoreAttempts), true);
+  const std::uint32_t end = std::min(kAttempts, tries_ + kMoreAttempts);
+  std::optional<verify::Case> out = drawFrom(index, tries_, end, true);
+  // Where the limits are far beyond what is measured few values may pass the checks.
+  return out || stopped_ ? out : drawFrom(index, tries_, end, false);
 }
 
 // Proposals from `tries` on, up to `end`.
@@ -52,6 +57,12 @@ std::optional<verify::Case> CaseRunner::drawFrom(std::uint64_t index, std::uint3
     if (options_.partError) {
       const auto& [x, y, z, turn] = *options_.partError;
       proposal.error = {{x, y, z}, turn};
+    } else if (others_ > 1) {
+      // A place that is out of its tolerance ends the source: nearer to the nominal one each time.
+      const double share = std::pow(0.5, std::min(others_ - 1, kNearest));
+      for (double* const part :
+           {&proposal.error.shift.x, &proposal.error.shift.y, &proposal.error.shift.z, &proposal.error.turn})
+        *part = std::round(*part * share * 1000) / 1000;
     }
     return proposal;
   };

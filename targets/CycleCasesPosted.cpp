@@ -81,6 +81,7 @@ double CaseRunner::roundingOf(const ir::Program& program, bool byWords) const {
   bool coarse = false, rest = false;
   const auto look = [&](const ir::ExpressionPtr& expression) {
     const double* value = expression ? ir::constantValue(expression) : nullptr;
+    if (expression && value == nullptr) coarse = true; // computed on the control
     if (value == nullptr) return;
     coarse = coarse || between(*value, steps);
     rest = rest || between(*value, kFine);

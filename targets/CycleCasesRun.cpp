@@ -272,7 +272,7 @@ CaseResult CaseRunner::runOne(const verify::Case& drawn) {
       runAtBounds(drawn, result);
   } else if (values->path && !values->rejected) {
     for (const verify::Difference& difference :
-         verify::compare(*values->path, {}, *source, std::max(options_.tolerance, values->rounding)))
+         verify::compare(*values->path, {}, *source, pathTolerance(*values)))
       addFinding(result, difference, *values);
   }
   result.verdict = !result.findings.empty() ? CaseVerdict::Differ
@@ -326,11 +326,15 @@ void CaseRunner::takeRun(CaseResult& result, TargetRun ran, const Values& values
   if (!values.rejected) comparePath(result, values);
 }
 
+double CaseRunner::pathTolerance(const Values& values) const {
+  return std::max(options_.tolerance, values.rounding);
+}
+
 // What the path touches and what the source measures, whatever the translation is: nominal contacts alone.
 void CaseRunner::comparePath(CaseResult& result, const Values& values) const {
   if (!values.path || !values.rehearsal) return;
   for (const verify::Difference& difference :
-       verify::compare(*values.path, {}, *values.rehearsal, std::max(options_.tolerance, values.rounding))) {
+       verify::compare(*values.path, {}, *values.rehearsal, pathTolerance(values))) {
     if (difference.aspect != verify::Aspect::Nominal) continue;
     addFinding(result, difference, values);
   }

@@ -65,6 +65,7 @@ public:
         std::nullopt;       // that surface alone, in the order of the path; else each
     std::size_t count = 1;  // surfaces from `touch` on
     sim::Point3 moved = {}; // mm, all of them
+    bool uneven = false;    // each by a multiple of `by` of its own
   };
   // The values of the case where the part is off by `more` besides, and surfaces lie farther; `look` gets the
   // run and its part, unless there is none.

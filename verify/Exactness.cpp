@@ -9,7 +9,8 @@
 namespace dotek::verify {
 namespace {
 
-constexpr double kDegrees = 57.3; // of a radian
+constexpr double kDegrees = 57.3;      // of a radian
+constexpr double kBesideMiddle = 1e-4; // mm: half a step of the control, a fifth of the radius off
 constexpr double kTurned =
     0.006; // a flat face leans at most so much from the touch that expects it: 0.3 degrees
 
@@ -64,6 +65,8 @@ CompareRules asExactAs(const Record& source, CompareRules rules) {
     double spread = 1;
     for (const Measure& measure : source.measures) {
       spread = std::max(spread, spreadOf(measure));
+      // A start by a rounded word, beside the middle of what is round.
+      if (measure.nominal.size() > 2) rules.results = std::max(rules.results, kBesideMiddle);
       if (isOblique(measure) && measure.nominal.size() != 3)
         rules.results = std::max(rules.results, kObliqueWord * kTurned);
     }

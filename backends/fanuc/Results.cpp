@@ -179,7 +179,8 @@ void planMerged(State& state, Body& body, const Between& between, std::size_t at
     bool known = !measured.empty();
     for (const ir::CycleStatement* one : measured) {
       const auto* signature = signatureOf(state.macros, *one);
-      known = known && signature != nullptr && resultAfter(*signature, *one, name).result != nullptr;
+      known = known && signature != nullptr &&
+              (isComputed(state, *one, name) || resultAfter(*signature, *one, name).result != nullptr);
       if (const auto kept = body.kept.find({one, name}); kept != body.kept.end()) locals.insert(kept->second);
     }
     if (!known || locals.size() > 1) continue; // reported where it is read

@@ -218,6 +218,7 @@ private:
   // takes the first that touches without setting an offset.
   const stdlib::MacroSet* macrosOf(const LoweredCycle& lowered) {
     const stdlib::Control* const control = &*context_.inputs->control;
+    if (options_.probeMacros && lowered.macros == nullptr && needsNone(lowered.cycle)) return &none_;
     if (options_.probeMacros) return session_.macroSet(*options_.probeMacros, control);
     if (lowered.macros != nullptr) return session_.macroSet(lowered.macros->name, control);
     if (needsNone(lowered.cycle)) return &none_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <optional>
 #include <set>
 #include <utility>
@@ -98,6 +99,98 @@ std::string lettersOfCall(std::string_view program) {
   return out;
 }
 
+// The text with each number as `#`.
+std::string withoutNumbers(std::string_view text) {
+  std::string out;
+  for (const char c : text)
+    if ((c < '0' || c > '9') && c != '.')
+      out += c;
+    else if (out.empty() || out.back() != '#')
+      out += '#';
+  return out;
+}
+
+// Lists, alarms and demands name numbers, codes and variables: a line with the words of the converted program
+// has its numbers, too. Values of the call are the editor's. "" or what is wrong.
+std::string whyNumbersDiffer(std::string_view converted, std::string_view edited) {
+  const std::vector<std::string_view> own = commentsOf(converted);
+  for (const std::string_view line : commentsOf(edited)) {
+    if (line.starts_with("CALL: ") || std::find(own.begin(), own.end(), line) != own.end()) continue;
+    const auto same = std::find_if(own.begin(), own.end(), [&](std::string_view one) {
+      return withoutNumbers(one) == withoutNumbers(line);
+    });
+    if (same != own.end() && !same->starts_with("CALL: "))
+      return fmt::format("the header says `{}`, where it is `{}`", trimmed(line), trimmed(*same));
+  }
+  return "";
+}
+
+// Which arguments move the probe: the letters after these words.
+std::string whyUsesDiffer(std::string_view converted, std::string_view edited) {
+  const auto lettersAfter = [](std::string_view program, std::string_view words) {
+    std::set<std::string> out;
+    for (const std::string_view line : commentsOf(program)) {
+      if (!line.starts_with(words)) continue;
+      const std::string letters = oneSpace(line.substr(words.size()));
+      for (std::size_t i = 0; i < letters.size(); i += 2)
+        out.insert(letters.substr(i, 1));
+    }
+    return out;
+  };
+  for (const std::string_view words : {"MOVE THE PROBE:", "SET OR COMPARE, MOVE NOTHING:"}) {
+    const std::set<std::string> meant = lettersAfter(converted, words), said = lettersAfter(edited, words);
+    if (!meant.empty() && !said.empty() && meant != said)
+      return fmt::format("the header says `{} {}`, where it is `{}`", words, fmt::join(said, " "),
+                         fmt::join(meant, " "));
+  }
+  return "";
+}
+
+// What the header demands of the caller and says of the program, one by one: "TOOL LENGTH ACTIVE". A list
+// that needs several lines goes on until one that begins something else.
+std::vector<std::string> demandsIn(std::string_view program) {
+  constexpr std::array<std::string_view, 4> kLists = {
+      "THE CALLER PROVIDES, ELSE AN ALARM: ", "THE CALLER PROVIDES, NOT CHECKED: ",
+      "CHANGES THAT ARE NOT PUT BACK: ", "COMPUTED, NO ARGUMENTS: "};
+  std::vector<std::string> texts;
+  bool goesOn = false;
+  for (const std::string_view line : commentsOf(program)) {
+    const auto list = std::find_if(kLists.begin(), kLists.end(),
+                                   [&](std::string_view start) { return line.starts_with(start); });
+    if (list != kLists.end())
+      texts.push_back(oneSpace(line.substr(list->size())));
+    else if (goesOn && line.find(':') == std::string_view::npos && !line.starts_with("ALARM ") &&
+             !line.starts_with("RESULT "))
+      texts.back() += " " + oneSpace(line);
+    else {
+      goesOn = false;
+      continue;
+    }
+    goesOn = true;
+  }
+  std::vector<std::string> out;
+  for (std::string& text : texts) {
+    for (std::size_t at = text.find(", "); at != std::string::npos; at = text.find(", ")) {
+      out.push_back(text.substr(0, at));
+      text.erase(0, at + 2);
+    }
+    out.push_back(std::move(text));
+  }
+  return out;
+}
+
+// Demands and formulas are all in the edited header, unless it has none of them. "" or what is wrong.
+std::string whyDemandsDiffer(std::string_view converted, std::string_view edited) {
+  std::string text;
+  for (const std::string_view line : commentsOf(edited))
+    text += oneSpace(line) + " ";
+  if (text.find("THE CALLER PROVIDES") == std::string::npos) return "";
+  for (const std::string& demand : demandsIn(converted))
+    if (text.find(demand) == std::string::npos)
+      return fmt::format("the header does not say `{}` any more", demand);
+  return "";
+}
+
 // Digits after `before` where a text begins with it and they end at a blank, a bracket or its end.
 std::string numberAfter(std::string_view text, std::string_view before) {
   if (!text.starts_with(before)) return "";
@@ -132,7 +225,14 @@ std::string whyHeaderDiffers(std::string_view converted, std::string_view edited
   for (const Row& row : rowsOf(edited)) {
     const auto same =
         std::find_if(meant.begin(), meant.end(), [&](const Row& one) { return one.key == row.key; });
-    if (same == meant.end()) continue;
+    if (same == meant.end()) {
+      const auto other = std::find_if(meant.begin(), meant.end(), [&](const Row& one) {
+        return one.letter == row.letter && withoutNumbers(one.key) == withoutNumbers(row.key);
+      });
+      if (other != meant.end())
+        return fmt::format("the header says `{}`, where it is `{}`", row.key, other->key);
+      continue;
+    }
     for (std::size_t i = 0; i < kSays.size(); ++i)
       if (row.cells[i] != same->cells[i])
         return fmt::format("the header gives `{}` as the {} of {}, where it is `{}`", row.cells[i], kSays[i],
@@ -144,6 +244,8 @@ std::string whyHeaderDiffers(std::string_view converted, std::string_view edited
         return fmt::format("the header gives the meaning of {} to {}: `{}`", other.letter, row.letter,
                            meaning);
   }
+  for (const auto why : {whyNumbersDiffer, whyUsesDiffer, whyDemandsDiffer})
+    if (std::string out = why(converted, edited); !out.empty()) return out;
   if (const auto [called, program] = numbersOf(edited);
       !called.empty() && !program.empty() && called != program)
     return fmt::format("the call in the header names program {}, and the program is O{}", called, program);

@@ -20,7 +20,8 @@ namespace {
 
 using stdlib::Function;
 
-constexpr double kSame = 1e-6; // mm: start + travel is the nominal
+constexpr double kSomeRadius = 2.7391; // mm: a path that fits one radius alone does not fit it
+constexpr double kSame = 1e-6;         // mm: start + travel is the nominal
 constexpr double kFirstSystem = 54, kLastSystem = 59;
 
 ir::ExpressionPtr sum(const ir::ExpressionPtr& a, const ir::ExpressionPtr& b) {
@@ -348,13 +349,16 @@ void MacroBlocks::move(const ir::Move& move, const ir::Origin& origin, std::vect
   moved(move);
 }
 
-// With the first values of the fields the target is not the nominal, wherever the cycle starts.
+// With the first values of the fields, and a ball of any radius, the target is not the nominal, wherever the
+// cycle starts.
 bool MacroBlocks::missesNominal(const ir::Measure& measure, const ir::Origin& origin) {
   const ir::Cycle& cycle = state_.cycle;
   ir::Environment known(cycle.variables.size());
   for (ir::VariableId id = 0; id < cycle.variables.size(); ++id) {
     const ir::Variable& variable = cycle.variable(id);
     const auto given = state_.options.defaults.find(id);
+    if (variable.role == ir::Role::Host && variable.name == "tool_radius")
+      known[id] = ir::Scalar::of(kSomeRadius);
     if (variable.role != ir::Role::Parameter) continue;
     if (given != state_.options.defaults.end())
       known[id] = ir::Scalar::of(given->second);

@@ -3,6 +3,7 @@
 #include "lint/NcProgram.h"
 #include "lint/Probing.h"
 
+#include <cmath>
 #include <set>
 
 namespace dotek::lint::rule {
@@ -10,7 +11,25 @@ namespace {
 
 constexpr std::uint32_t kFirstSystem = 1000; // the control changes these itself
 
-void checkProgram(const ir::Program& program, Report& report) {
+// What a vendor's macro writes is known.
+bool mayWrite(const ir::Call& call, const std::set<std::uint32_t>& read, const Project& project) {
+  const double* number = call.program ? ir::constantValue(call.program) : nullptr;
+  if (number == nullptr || call.kind != ir::CallKind::Macro || *number < 1 || *number >= 1e8) return true;
+  bool known = false;
+  for (const stdlib::MacroSet& set : project.macroSets) {
+    if (!set.calls(static_cast<std::uint32_t>(std::lround(*number)))) continue;
+    known = true;
+    for (const auto& [first, last] : set.overwritten)
+      if (const auto at = read.lower_bound(first); at != read.end() && *at <= last) return true;
+    for (const stdlib::MacroSignature& one : set.signatures)
+      for (const stdlib::MacroResult& result : one.results)
+        if (read.contains(result.variable)) return true;
+  }
+  return !known;
+}
+
+void checkProgram(const NcProgram& nc, Report& report) {
+  const ir::Program& program = nc.program;
   const auto& body = program.body;
   for (std::size_t at = 0; at < body.size(); ++at) {
     const auto* loop = std::get_if<ir::Loop>(&body[at].node);
@@ -33,21 +52,20 @@ void checkProgram(const ir::Program& program, Report& report) {
     for (std::size_t i = at + 1; i < body.size() && !may; ++i) {
       const auto* end = std::get_if<ir::LoopEnd>(&body[i].node);
       if (end != nullptr && end->number == loop->number) break;
-      may =
-          endsProgram(body[i]) ||
-          match(
-              body[i],
-              [](const ir::OneOf<ir::Call, ir::Exit, ir::Raise, ir::JumpTo, ir::Jump> auto&) { return true; },
-              [&](const ir::Store&) {
-                const auto number = storedNumber(body[i]);
-                return !number || read.contains(*number);
-              },
-              // A label with a number is one that a GOTO of the text names.
-              [&](const ir::Branch& branch) { return program.labels[branch.target].number != 0; },
-              // A code of the builder may call a macro.
-              [](const ir::NcBlock& block) { return hasWord(block, 'M'); },
-              [](const ir::OneOf<ir::Label, ir::Comment, ir::Loop, ir::LoopEnd, ir::Notice, ir::Port,
-                                 ir::Print, ir::NameVariables> auto&) { return false; });
+      may = endsProgram(body[i]) ||
+            match(
+                body[i], [&](const ir::Call& call) { return mayWrite(call, read, nc.project); },
+                [](const ir::OneOf<ir::Exit, ir::Raise, ir::JumpTo, ir::Jump> auto&) { return true; },
+                [&](const ir::Store&) {
+                  const auto number = storedNumber(body[i]);
+                  return !number || read.contains(*number);
+                },
+                // A label with a number is one that a GOTO of the text names.
+                [&](const ir::Branch& branch) { return program.labels[branch.target].number != 0; },
+                // A code of the builder may call a macro.
+                [](const ir::NcBlock& block) { return hasWord(block, 'M'); },
+                [](const ir::OneOf<ir::Label, ir::Comment, ir::Loop, ir::LoopEnd, ir::Notice, ir::Port,
+                                   ir::Print, ir::NameVariables> auto&) { return false; });
     }
     if (may) continue;
     if (read.empty()) {
@@ -64,7 +82,7 @@ void checkProgram(const ir::Program& program, Report& report) {
 }
 
 void check(const NcProgram& nc, Report& report) {
-  checkProgram(nc.program, report);
+  checkProgram(nc, report);
 }
 
 } // namespace

@@ -88,7 +88,12 @@ TEST_CASE("verify: the header of a translation says what its arguments are") {
             "ALLOW LOW, LOWER THAN THIS: NO)\n(                                      PART)"}, // of another
                                                                                               // one
            {"(CALL: G65 P8000 A0. B3. ", "(CALL: G65 P8000 A0. "}, // a call that it refuses
-           {"\nO8000", "\nO8001"}}) {                              // another program than the call names
+           {"\nO8000", "\nO8001"},                                 // another program than the call names
+           {"A #1  ZNOM", "A #2  ZNOM"},
+           {"(ALARM 101 ", "(ALARM 121 "},
+           {", TOOL LENGTH ACTIVE", ""},
+           {", NO MIRROR)\n(IMAGE", ")\n("},
+           {"(MOVE THE PROBE: X Y ", "(MOVE THE PROBE: X "}}) {
     CAPTURE(from);
     CHECK(differs(part, replaced(good, from, to)));
   }
