@@ -194,7 +194,7 @@ std::unique_ptr<CaseRunner::Values> CaseRunner::check(verify::Case drawn, bool s
   if (stopped_) return nullptr;
   session_.diagnostics() = Diagnostics();
   auto out = std::unique_ptr<Values>(
-      new Values{std::move(drawn), *fields_, {}, {}, false, "", {}, {}, {}, false, 0, nullptr, {}});
+      new Values{std::move(drawn), *fields_, {}, {}, false, "", {}, {}, {}, false, rests_, 0, nullptr, {}});
   for (const auto& [name, value] : out->drawn.values)
     out->fields.set(name, value, {});
   if (settle) roundHosts(out->drawn);
@@ -479,7 +479,7 @@ verify::Case CaseRunner::settled(verify::Case drawn) {
 bool CaseRunner::post(Values& values) {
   compost::PostSettings settings{session_.sources(), *inputs_->form, session_.limits(),
                                  options_.common.assume};
-  settings.printsRests = true;
+  settings.printsRests = values.rests;
   compost::PostRun run(*inputs_->program, settings, session_.diagnostics());
   compost::Operation now;
   now.cycle = folder_->name;
@@ -505,6 +505,12 @@ bool CaseRunner::readPosted(Values& values) {
   values.losesDigits =
       std::any_of(session_.diagnostics().all().begin(), session_.diagnostics().all().end(),
                   [](const Diagnostic& one) { return one.code == diag::LostDecimals::code; });
+  // No other values are drawn for these.
+  if (values.losesDigits && !values.rests && (options_.replay || values.drawn.edge)) {
+    values.rests = true;
+    session_.diagnostics() = Diagnostics();
+    return readPosted(values);
+  }
   auto posted = std::make_unique<Posted>();
   Diagnostics found;
   auto file =

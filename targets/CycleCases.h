@@ -146,6 +146,7 @@ private:
   std::optional<verify::Draws> wide_; // limits of what is measured are often far beyond it
   std::map<std::pair<FileId, std::uint32_t>, SourceRange> branchAlarms_; // that the Prog prints, by place
   std::vector<SourceRange> met_; // of these, in which runs have ended since the last result
+  bool rests_ = false;           // Values::rests of those that are made next
   std::string refusal_;
   SourceRange refusedAt_;   // by a check
   Rejections rejected_;     // of the last draw()

@@ -30,6 +30,7 @@ struct CaseRunner::Values {
   std::vector<frontend::compost::PostedLine> lines;
   std::optional<SourceRange> spindleOff; // the first block that stops the spindle, as posted
   bool losesDigits = false;              // the post prints fewer digits of a value than it has
+  bool rests = false;                    // what no picture holds is posted in full
   double rounding = 0; // mm, by which words of one side may be rounded where the other's are not
   std::unique_ptr<Posted> posted;
   std::optional<verify::Record> rehearsal;

@@ -1,4 +1,5 @@
 // What the posted program of a case says of its values and macros.
+#include "ir/Walk.h"
 #include "targets/CycleCasesParts.h"
 #include "targets/Stage.h"
 
@@ -30,12 +31,18 @@ verify::Case CaseRunner::coarser(verify::Case drawn, double unit) const {
 // The proposal, or where the post drops digits of it a coarser one. nullptr: the values are rejected;
 // refusal_ says why.
 std::unique_ptr<CaseRunner::Values> CaseRunner::attempt(const verify::Case& proposal) {
+  rests_ = false;
   std::unique_ptr<Values> out = attemptAsIs(proposal);
   for (const double unit : {0.02, 0.2, 2.0}) {
     // A target that writes a program for each case gets its values from the source.
     if (!out || !out->losesDigits || (target_ != nullptr && !plan_.translation)) return out;
     out = attemptAsIs(coarser(proposal, unit));
   }
+  if (!out || !out->losesDigits) return out;
+  // A cosine, or a third: both sides get it in full.
+  rests_ = true;
+  out = attemptAsIs(proposal);
+  rests_ = false;
   if (!out || !out->losesDigits) return out;
   // What the post drops of all values is a difference from the path.
   if (target_ == nullptr) return attemptAsIs(proposal);
@@ -73,15 +80,21 @@ bool CaseRunner::halvesBetweenSteps(const ir::Program& program) const {
 // Places between two steps of the control, to which other macros, a fragment's formats and the control come
 // by rounded words. `byWords`: such macros are compared, or the path.
 double CaseRunner::roundingOf(const ir::Program& program, bool byWords) const {
-  constexpr double kSame = 1e-3, kFine = 1e6;                          // of a step; steps in a mm
+  constexpr double kSame = 1e-3, kFine = 1e6, kCounted = 4;            // of a step; steps in a mm
   const double steps = std::pow(10, inputs_->sourceControl->decimals); // in a mm
   const auto between = [](double value, double unit) {
     return std::abs(value * unit - std::round(value * unit)) > kSame;
   };
-  bool coarse = false, rest = false;
+  bool coarse = false, rest = false, computed = false;
   const auto look = [&](const ir::ExpressionPtr& expression) {
     const double* value = expression ? ir::constantValue(expression) : nullptr;
-    if (expression && value == nullptr) coarse = true; // computed on the control
+    if (expression && value == nullptr) {
+      coarse = true; // computed on the control
+      ir::eachNode(expression, [&](const ir::Expression& node) {
+        const auto* constant = std::get_if<ir::Constant>(&node.node);
+        computed = computed || (constant != nullptr && between(constant->value, kFine));
+      });
+    }
     if (value == nullptr) return;
     coarse = coarse || between(*value, steps);
     rest = rest || between(*value, kFine);
@@ -94,6 +107,8 @@ double CaseRunner::roundingOf(const ir::Program& program, bool byWords) const {
       for (const ir::Word& word : block->words)
         if (word.address >= 'X' && word.address <= 'Z') look(word.value);
   }
+  // Times a counter it is several steps.
+  if (computed) return kCounted / steps;
   return rest || (coarse && byWords) ? 1 / steps : 0;
 }
 

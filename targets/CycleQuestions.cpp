@@ -90,7 +90,9 @@ SourceQuestions::Ran CaseRunner::Questions::play(const std::string& field, doubl
   Ran out;
   verify::Case other = values_.drawn;
   (other.hosts.contains(field) ? other.hosts : other.values)[field] = value;
+  runner_.rests_ = values_.rests;
   const std::unique_ptr<Values> now = runner_.check(other, false);
+  runner_.rests_ = false;
   if (!now) return out;
   if (now->rejected) {
     out.answer = Answer::Rejected;
