@@ -1,4 +1,5 @@
 // Requests about names and symbols: hover, definition, references, rename, symbols, hints.
+#include "frontend/fusion/Tokens.h"
 #include "lsp/Server.h"
 #include "project/CycleFolder.h"
 #include "support/Ascii.h"
@@ -162,6 +163,8 @@ void checkName(const Occurrence& one, const std::string& name, const Index& inde
   if (!good)
     throw Refusal{kRequestFailed, number ? "a block number has digits only"
                                          : "a name has letters, digits and `_`, and begins with no digit"};
+  if (index.post && frontend::fusion::isReserved(name))
+    throw Refusal{kRequestFailed, "`" + name + "` is a word of the language"};
   if (index.taken.contains(name)) throw Refusal{kRequestFailed, "`" + name + "` is in use"};
   const std::string key = one.key.substr(0, one.key.rfind(' ') + 1) + name;
   for (const Occurrence& other : index.occurrences)

@@ -538,7 +538,7 @@ bool CaseRunner::readPosted(Values& values) {
     moves = moves || std::holds_alternative<ir::Call>(statement.node) || movesAxes(statement);
     if (moves && std::holds_alternative<ir::Raise>(statement.node)) {
       const SourceRange at = sourceOf(statement.origin.range(), values);
-      if (at.hasPlace()) branchAlarms_.try_emplace({at.file, at.begin}, at);
+      if (at.hasPlace()) branchAlarms_.try_emplace(at.begin, at);
     }
   }
   posted->code = sim::compile({&program}, *inputs_->sourceControl, posted->sources);

@@ -68,7 +68,6 @@ public:
 
   std::vector<std::pair<std::string, SourceRange>> droppedDigits(const verify::Case& drawn) override;
   std::vector<Rejection> rejections() const override;
-  std::vector<SourceRange> alarms() const override;
   VerifySides sides() const override;
   std::optional<CasePictures> pictures(const verify::Case& drawn) override;
 
@@ -143,8 +142,8 @@ private:
   const frontend::compost::Routine* routine_ = nullptr;
   std::optional<FieldTable> fields_;
   std::optional<verify::Draws> draws_;
-  std::optional<verify::Draws> wide_; // limits of what is measured are often far beyond it
-  std::map<std::pair<FileId, std::uint32_t>, SourceRange> branchAlarms_; // that the Prog prints, by place
+  std::optional<verify::Draws> wide_;                 // limits of what is measured are often far beyond it
+  std::map<std::uint32_t, SourceRange> branchAlarms_; // that the Prog has printed in this case, by place
   std::vector<SourceRange> met_; // of these, in which runs have ended since the last result
   bool rests_ = false;           // Values::rests of those that are made next
   std::string refusal_;

@@ -158,6 +158,9 @@ void CaseRunner::addFinding(CaseResult& result, const verify::Difference& differ
 CaseResult CaseRunner::run(const verify::Case& drawn) {
   CaseResult result = runOne(drawn);
   result.alarms = met_;
+  if (target_ != nullptr) // a path raises none
+    for (const auto& [place, alarm] : std::exchange(branchAlarms_, {}))
+      result.printed.push_back(alarm);
   if (!result.ofValues) met_.clear(); // else another one is drawn in its place, which takes them over
   return result;
 }
@@ -165,14 +168,6 @@ CaseResult CaseRunner::run(const verify::Case& drawn) {
 void CaseRunner::noteAlarm(const verify::Record& source, const Values& values) {
   if (source.ending == verify::Ending::Alarm && source.alarmKind.empty())
     met_.push_back(sourceOf(source.endedAt, values));
-}
-
-std::vector<SourceRange> CaseRunner::alarms() const {
-  std::vector<SourceRange> out;
-  if (target_ == nullptr) return out; // a path raises none
-  for (const auto& [place, alarm] : branchAlarms_)
-    out.push_back(alarm);
-  return out;
 }
 
 CaseResult CaseRunner::runOne(const verify::Case& drawn) {

@@ -95,7 +95,8 @@ struct CaseResult {
   // Of the source, in which its runs have ended since the last result: what the translation does there is
   // known.
   std::vector<SourceRange> alarms = {};
-  std::string trace; // of the translation; only where VerifyOptions::traces wants it
+  std::vector<SourceRange> printed = {}; // all alarms that the posted program has where it moves
+  std::string trace;                     // of the translation; only where VerifyOptions::traces wants it
 };
 
 // What the two sides run on, for people; "": there is none.

@@ -145,6 +145,8 @@ void VerifyReport::add(std::uint64_t number, bool edge, verify::Case drawn, Case
   }
   for (const SourceRange& alarm : result.alarms)
     alarms_.emplace(alarm.file, alarm.begin);
+  for (const SourceRange& alarm : result.printed)
+    printed_.try_emplace({alarm.file, alarm.begin}, alarm);
   if (edge) return;
   for (auto& [at, what] : result.unstated)
     unstated_.emplace(std::pair(at.file, at.begin), std::pair(at, std::move(what)));
@@ -442,7 +444,9 @@ void VerifyReport::tellUnstated() {
 void VerifyReport::tellAlarms() {
   if (options_.replay || cases_.agree == 0) return;
   for (const SourceRange& alarm : runner_.alarms())
-    if (!alarms_.contains({alarm.file, alarm.begin})) told_.report<diag::VerifyAlarmNotMet>(alarm);
+    printed_.try_emplace({alarm.file, alarm.begin}, alarm);
+  for (const auto& [place, alarm] : printed_)
+    if (!alarms_.contains(place)) told_.report<diag::VerifyAlarmNotMet>(alarm);
 }
 
 void VerifyReport::tellProbe() {

@@ -127,11 +127,11 @@ void PostRun::Impl::printValue(double value, const Picture& picture, std::string
                                                 value == std::trunc(value) ? "" : " once it is rounded");
     return;
   case Picture::Fit::LosesDecimals:
-    // 15 - 25.4/2 - 3 is -0.7 and a rest of the arithmetic, which nobody typed.
     if (printsRests && hasRest(value)) {
       text(fmt::format("{:.9f}", value), where);
       return;
     }
+    // 15 - 25.4/2 - 3 is -0.7 and a rest of the arithmetic, which nobody typed.
     if (std::abs(value - printed.value.value()) > kArithmeticRest)
       diagnostics_->report<diag::LostDecimals>(where, what, numberText(value), picture.text(),
                                                numberText(printed.value.value()));

@@ -11,13 +11,17 @@ namespace {
 
 constexpr std::uint32_t kFirstSystem = 1000; // the control changes these itself
 
-// What a vendor's macro writes is known.
+// What a vendor's macro writes is known; not what a program of the files does that has its number.
 bool mayWrite(const ir::Call& call, const std::set<std::uint32_t>& read, const Project& project) {
   const double* number = call.program ? ir::constantValue(call.program) : nullptr;
   if (number == nullptr || call.kind != ir::CallKind::Macro || *number < 1 || *number >= 1e8) return true;
+  const auto called = static_cast<std::uint32_t>(std::lround(*number));
+  for (const NcFile& file : project.programs)
+    for (const macrob::Program& program : file.file->programs)
+      if (program.name && program.name->number == called) return true;
   bool known = false;
   for (const stdlib::MacroSet& set : project.macroSets) {
-    if (!set.calls(static_cast<std::uint32_t>(std::lround(*number)))) continue;
+    if (!set.calls(called)) continue;
     known = true;
     for (const auto& [first, last] : set.overwritten)
       if (const auto at = read.lower_bound(first); at != read.end() && *at <= last) return true;
