@@ -3,7 +3,9 @@
 #include "support/Ascii.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <fmt/format.h>
+#include <vector>
 
 namespace dotek::project {
 namespace {
@@ -71,7 +73,29 @@ constexpr auto kText = static_cast<std::size_t>(Tongue::Markdown);
 
 } // namespace
 
+namespace {
+
+// The characters of a text, one bit for each of 64 classes: a mark with a character that the line does not
+// have cannot be in it.
+std::uint64_t charactersOf(View text) {
+  std::uint64_t out = 0;
+  for (const char c : text)
+    out |= std::uint64_t{1} << (static_cast<unsigned char>(c) & 63U);
+  return out;
+}
+
+// Of each mark the characters that its line has to have.
+std::vector<std::uint64_t> charactersOfMarks() {
+  std::vector<std::uint64_t> out;
+  for (const Mark& mark : dialectMarks())
+    out.push_back(mark.fits != nullptr ? 0 : charactersOf(mark.text));
+  return out;
+}
+
+} // namespace
+
 void Dialects::look(View line) {
+  static const std::vector<std::uint64_t> needed = charactersOfMarks();
   ++line_;
   const std::string folded = upperCase(trimmedText(line));
   if (folded.empty()) return;
@@ -86,7 +110,10 @@ void Dialects::look(View line) {
   const std::size_t name =
       std::min(text.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789 "), text.size());
   const bool assignment = name > 0 && name < text.size() && text[name] == '=';
-  for (const Mark& mark : dialectMarks()) {
+  const std::uint64_t present = charactersOf(text) | charactersOf(" "); // comments leave a blank
+  for (std::size_t i = 0; i < needed.size(); ++i) {
+    if ((needed[i] & ~present) != 0) continue;
+    const Mark& mark = dialectMarks()[i];
     bool seen = false;
     switch (mark.place) {
     case Place::Begin:

@@ -4,6 +4,7 @@
 #include "project/LineShapes.h"
 #include "project/PostShape.h"
 #include "support/Ascii.h"
+#include "support/LineEnds.h"
 
 #include <algorithm>
 #include <array>
@@ -18,6 +19,7 @@ constexpr View kUnknown = "no language that Dotek reads";
 constexpr View kListing = "listing";
 constexpr View kToml = "settings in TOML";
 constexpr int kMostLines = 2000;
+constexpr int kLinesBetween = 250; // after so many it is asked whether more are needed
 constexpr std::size_t kMostOfLine = 4096;
 constexpr int kLongestLeader = 12; // lines before the first `%`, or after the last
 
@@ -80,6 +82,14 @@ struct Evidence {
   int stray = 0;       // blocks of NC that have a word which is none of it
   bool schema = false; // a TOML file of Dotek begins with `schema = 1`
 
+  // Macro statements within `%` or after the number of a program, blocks throughout, and nothing that speaks
+  // for another language: more lines of a file that is named so would not change what it is.
+  bool plainlyNc() const {
+    constexpr double kNearlyAll = 0.95;
+    return nc.framed && nc.macroB >= kLinesBetween / 10 && nc.tally.share() >= kNearlyAll && stray == 0 &&
+           dialects.weight() == 0 && !dialects.certain() && suf.share() < kNearlyAll / 2;
+  }
+
   const Tally& of(InputKind kind) const {
     switch (kind) {
     case InputKind::Prog: return prog;
@@ -94,12 +104,12 @@ struct Evidence {
   }
 };
 
-// Calls `visit` with each of the first lines; CR LF is one end.
+// Calls `visit` with each of the first lines as long as it wants more; CR LF is one end.
 template <class Visit> void eachLine(View text, Visit&& visit) {
   int lines = 0;
   for (std::size_t at = 0; at < text.size() && lines < kMostLines; ++lines) {
-    const std::size_t end = std::min(text.find_first_of("\r\n", at), text.size());
-    visit(text.substr(at, std::min(end - at, kMostOfLine)));
+    const std::size_t end = endOfLine(text, at);
+    if (!visit(text.substr(at, std::min(end - at, kMostOfLine)))) return;
     at = end + (end + 1 < text.size() && text[end] == '\r' && text[end + 1] == '\n' ? 2 : 1);
   }
 }
@@ -135,38 +145,42 @@ View settingsOf(View text) {
   int settings = 0, open = 0; // brackets of a list that goes on
   eachLine(text, [&](View raw) {
     const View line = trimmed(raw);
-    if (other || line.empty() || line.starts_with('#')) return;
+    if (line.empty() || line.starts_with('#')) return true;
     View value = line;
     if (open == 0) {
       if (isTomlTable(line)) {
         table = true;
-        return;
+        return true;
       }
       const std::size_t equals = line.find('=');
       value = equals == View::npos ? View() : trimmed(line.substr(equals + 1));
       if (value.empty() || !isTomlName(trimmed(line.substr(0, equals)))) {
         other = true;
-        return;
+        return false;
       }
       mark = mark || line.starts_with("schema =");
       ++settings;
-      if (!value.starts_with('[') && !value.starts_with('{')) return;
+      if (!value.starts_with('[') && !value.starts_with('{')) return true;
     }
     open += static_cast<int>(
         std::count_if(value.begin(), value.end(), [](char c) { return c == '[' || c == '{'; }));
     open -= static_cast<int>(
         std::count_if(value.begin(), value.end(), [](char c) { return c == ']' || c == '}'; }));
+    return true;
   });
   return other || settings == 0 ? View() : mark ? kToml : table ? kUnknown : View();
 }
 
-Evidence look(View text) {
+// `named`: what it is by its name, if that says so.
+Evidence look(View text, std::optional<InputKind> named) {
   Evidence out;
+  int seen = 0;
   bool inComment = false;
   Tally closed; // of the Prog, as if each comment ended on its line
   eachLine(text, [&](View line) {
     out.dialects.look(line);
-    if (line.find_first_not_of(" \t\v\f") == View::npos) return;
+    ++seen;
+    if (line.find_first_not_of(" \t\v\f") == View::npos) return true;
     out.prog.add(progShape(line, inComment));
     bool here = false;
     closed.add(progShape(line, here));
@@ -180,6 +194,7 @@ Evidence look(View text) {
     out.cycle.add(cycleShape(line));
     out.schema = out.schema || line.starts_with("schema =");
     out.definitions += isDefinition(line) ? 1 : 0;
+    return seen % kLinesBetween != 0 || named != InputKind::Nc || !out.plainlyNc();
   });
   if (inComment && out.prog.lines == 0) out.prog = closed;
   return out;
@@ -232,7 +247,7 @@ Recognition recogniseText(View text, std::optional<InputKind> named, bool byName
   if (byName && named == InputKind::Cycle) return {named, "its name"};
   if (const View settings = byName ? View() : settingsOf(text); !settings.empty())
     return {std::nullopt, std::string(settings)};
-  const Evidence seen = look(text);
+  const Evidence seen = look(text, named);
   const Tally& nc = seen.nc.tally;
   // Words of Mikroprog look like any NC, and its comments like those of other controls.
   const bool suf = named == InputKind::Suf
@@ -332,7 +347,10 @@ std::optional<Foreign> foreignLanguage(View bytes) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   if (text.find('\0') != View::npos || otherFormat(text)) return std::nullopt;
   Dialects dialects;
-  eachLine(text, [&](View line) { dialects.look(line); });
+  eachLine(text, [&](View line) {
+    dialects.look(line);
+    return true;
+  });
   return dialects.weight() > 0 || dialects.certain() ? dialects.foreign() : std::nullopt;
 }
 

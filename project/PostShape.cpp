@@ -1,5 +1,7 @@
 #include "project/PostShape.h"
 
+#include "support/LineEnds.h"
+
 #include <algorithm>
 #include <array>
 
@@ -51,7 +53,7 @@ bool isPostText(View text, bool named) {
   int lines = 0, fits = 0, weight = 0, functions = 0, ofPosts = 0;
   bool inComment = false;
   for (std::size_t at = 0; at < text.size() && lines < 2000;) {
-    const std::size_t end = std::min(text.find_first_of("\r\n", at), text.size());
+    const std::size_t end = endOfLine(text, at);
     View line = trimmed(text.substr(at, end - at));
     at = end + 1;
     if (inComment) {

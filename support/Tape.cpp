@@ -1,5 +1,7 @@
 #include "support/Tape.h"
 
+#include "support/LineEnds.h"
+
 #include <algorithm>
 #include <array>
 #include <string_view>
@@ -31,8 +33,7 @@ std::size_t afterProgram(std::string_view bytes, std::size_t from) {
   for (std::size_t at = from; at < bytes.size();) {
     const std::size_t first = bytes.find_first_not_of(std::string_view("\0 \t", 3), at);
     if (first != std::string_view::npos && bytes[first] == '%' && ++marks == 2) return first + 1;
-    const std::size_t end = bytes.find_first_of("\r\n", at);
-    at = end == std::string_view::npos ? bytes.size() : end + 1;
+    at = std::min(endOfLine(bytes, at) + 1, bytes.size());
   }
   return bytes.size();
 }
@@ -41,7 +42,9 @@ std::size_t afterProgram(std::string_view bytes, std::size_t from) {
 
 void blankTape(std::string& bytes) {
   const std::string_view view = bytes;
-  if (view.find_first_of(std::string_view("\0\x1A", 2)) == std::string_view::npos || isWide(view)) return;
+  if ((view.find('\0') == std::string_view::npos && view.find('\x1A') == std::string_view::npos) ||
+      isWide(view))
+    return;
   const std::size_t first = view.find_first_not_of(kBeforeTape);
   if (first == std::string_view::npos) return; // nothing but feed holes
   if (!isProgram(view.substr(first))) return;

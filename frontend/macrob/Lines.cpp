@@ -3,6 +3,7 @@
 #include "frontend/macrob/Legend.h"
 #include "frontend/macrob/Remarks.h"
 #include "support/Ascii.h"
+#include "support/LineEnds.h"
 #include "support/messages/Common.h"
 #include "support/messages/MacroB.h"
 
@@ -50,9 +51,7 @@ private:
     std::fill(bytes().begin() + static_cast<std::ptrdiff_t>(begin),
               bytes().begin() + static_cast<std::ptrdiff_t>(end), ' ');
   }
-  std::size_t endOfLine(std::size_t from) const {
-    return std::min(out_.bytes.find_first_of("\r\n", from), out_.bytes.size());
-  }
+  std::size_t endOfLine(std::size_t from) const { return dotek::endOfLine(out_.bytes, from); }
   std::size_t nextLine(std::size_t end) const {
     if (end >= out_.bytes.size()) return end;
     return end +

@@ -45,6 +45,7 @@ std::unique_ptr<antlr4::Token> TokenReader::make(std::size_t kind, std::size_t b
 
 std::unique_ptr<antlr4::Token> TokenReader::nextToken() {
   if (waiting_.empty()) {
+    skipBlanks();
     std::unique_ptr<antlr4::Token> next = MacroBLexer::nextToken();
     const std::size_t kind = next->getType();
     if (next->getChannel() != antlr4::Token::DEFAULT_CHANNEL || kind == antlr4::Token::EOF) return next;
@@ -59,6 +60,16 @@ std::unique_ptr<antlr4::Token> TokenReader::nextToken() {
   std::unique_ptr<antlr4::Token> first = std::move(waiting_.front());
   waiting_.pop_front();
   return first;
+}
+
+// The scanner leaves blanks where it has read a block: one step over them, not one of the grammar for each.
+void TokenReader::skipBlanks() {
+  antlr4::CharStream& input = *getInputStream();
+  const std::size_t from = input.index();
+  std::size_t at = from;
+  for (ssize_t next = 1; input.LA(next) == ' '; ++next)
+    ++at;
+  if (at != from) input.seek(at);
 }
 
 void TokenReader::takeApart(const antlr4::Token& run) {

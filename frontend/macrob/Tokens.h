@@ -21,6 +21,7 @@ public:
 
 private:
   std::unique_ptr<antlr4::Token> make(std::size_t kind, std::size_t begin, std::size_t end);
+  void skipBlanks();
   void takeApart(const antlr4::Token& run);
   std::unique_ptr<antlr4::Token> printText(const antlr4::Token& bracket);
 

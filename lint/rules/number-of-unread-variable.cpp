@@ -1,9 +1,12 @@
 #include "ir/Walk.h"
 #include "lint/Skips.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
+#include <utility>
 #include <vector>
 
 namespace dotek::lint::rule {
@@ -17,6 +20,69 @@ bool isSystem(double number) {
   return (number > 4000 && number <= 4130) || (number > 5000 && number <= 5083);
 }
 
+// What one statement reads, and its numbers that may be those of variables.
+struct Statement {
+  std::vector<const ir::Expression*> indices; // numbers of variables
+  std::vector<std::uint32_t> read;
+  std::vector<std::pair<const ir::Expression*, std::uint32_t>> numbers; // whole, of common variables
+
+  void look(const ir::ProgramStatement& statement) {
+    indices.clear();
+    read.clear();
+    numbers.clear();
+    ir::eachNode(statement, [&](const ir::Expression& node) {
+      if (const auto* variable = std::get_if<ir::MachineVariable>(&node.node)) {
+        indices.push_back(variable->number.get());
+        if (const auto number = variableNumber(node)) read.push_back(*number);
+      } else if (const auto* constant = std::get_if<ir::Constant>(&node.node)) {
+        if (constant->value >= kFirstCommon && constant->value <= kLastCommon &&
+            constant->value == std::floor(constant->value) && constant->digits.find('.') == std::string::npos)
+          numbers.emplace_back(&node, static_cast<std::uint32_t>(constant->value));
+      }
+    });
+    if (const auto* print = std::get_if<ir::Print>(&statement.node))
+      for (const ir::PrintPiece& piece : print->pieces)
+        if (piece.number) read.push_back(*piece.number);
+  }
+
+  bool isIndex(const ir::Expression* node) const {
+    return std::find(indices.begin(), indices.end(), node) != indices.end();
+  }
+};
+
+// Variables by whose value another one is chosen: `#7=5063`, and `#[#7]` later, means the number.
+std::set<std::uint32_t> counters(const ir::Program& program) {
+  std::set<std::uint32_t> out;
+  for (const ir::ProgramStatement& statement : program.body)
+    ir::eachNode(statement, [&](const ir::Expression& node) {
+      const auto* variable = std::get_if<ir::MachineVariable>(&node.node);
+      if (variable == nullptr || ir::constantValue(variable->number) != nullptr) return;
+      ir::eachNode(variable->number, [&](const ir::Expression& inner) {
+        if (!std::holds_alternative<ir::MachineVariable>(inner.node)) return;
+        if (const auto number = variableNumber(inner)) out.insert(*number);
+      });
+    });
+  return out;
+}
+
+// #500=500+#1, and #[150+141]: the number itself is where its variable belongs.
+bool isLost(const ir::Store& store, const std::optional<std::uint32_t>& target, const Statement& seen) {
+  // `#[158+1]` counts on from a base.
+  const auto* sum = std::get_if<ir::Binary>(&store.number->node);
+  const double* base = sum == nullptr ? nullptr : ir::constantValue(sum->left);
+  const double* step = sum == nullptr ? nullptr : ir::constantValue(sum->right);
+  if (base != nullptr && step != nullptr && *base >= kFirstCommon && *step >= kFirstCommon) return true;
+  if (!target || *target < kFirstCommon || !std::holds_alternative<ir::Binary>(store.value->node))
+    return false;
+  bool out = false;
+  ir::eachNode(store.value, [&](const ir::Expression& node) {
+    const auto* constant = std::get_if<ir::Constant>(&node.node);
+    out = out || (constant != nullptr && constant->value == *target &&
+                  constant->digits.find('.') == std::string::npos && !seen.isIndex(&node));
+  });
+  return out;
+}
+
 void check(const Project& project, Report& report) {
   // Of a program: what it sets, and numbers without a point in calculations.
   struct Numbers {
@@ -24,68 +90,35 @@ void check(const Project& project, Report& report) {
   };
   std::vector<Numbers> programs;
   std::set<std::uint32_t> read; // in any
+  Statement seen;
   eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
     Numbers& mine = programs.emplace_back();
-    // `#7=5063`, and `#[#7]` later: the number is meant.
-    std::set<std::uint32_t> counts;
-    for (const ir::ProgramStatement& statement : program.body)
-      ir::eachNode(statement, [&](const ir::Expression& node) {
-        const auto* variable = std::get_if<ir::MachineVariable>(&node.node);
-        if (variable == nullptr) return;
-        ir::eachNode(variable->number, [&](const ir::Expression& inner) {
-          if (!std::holds_alternative<ir::MachineVariable>(inner.node)) return;
-          if (const auto number = variableNumber(inner)) counts.insert(*number);
-        });
-      });
+    const std::set<std::uint32_t> counts = counters(program);
     for (const ir::ProgramStatement& statement : program.body) {
-      if (const auto number = storedNumber(statement)) mine.stored.emplace(*number, statement.origin.range());
-      eachRead(statement, [&](std::uint32_t number, SourceRange) { read.insert(number); });
-      std::set<const ir::Expression*> indices; // numbers of variables
-      ir::eachNode(statement, [&](const ir::Expression& node) {
-        if (const auto* variable = std::get_if<ir::MachineVariable>(&node.node))
-          indices.insert(variable->number.get());
-      });
+      const auto target = storedNumber(statement);
+      if (target) mine.stored.emplace(*target, statement.origin.range());
+      seen.look(statement);
+      read.insert(seen.read.begin(), seen.read.end());
       const bool words = std::holds_alternative<ir::NcBlock>(statement.node) ||
                          callOf(statement) != nullptr || std::holds_alternative<ir::Raise>(statement.node);
       const auto* store = std::get_if<ir::Store>(&statement.node);
       const auto* whole = store == nullptr ? nullptr : std::get_if<ir::Constant>(&store->value->node);
-      const auto target = storedNumber(statement);
       if (whole != nullptr && !(target && counts.contains(*target)) && isSystem(whole->value) &&
           whole->digits.find('.') == std::string::npos)
         report.at(store->value->range.hasPlace() ? store->value->range : statement.origin.range(),
                   "{0} is a number here, and #{0} is a state of the control; write `#{0}` if that is meant",
                   whole->digits);
-      // #500=500+#1, and #[150+141]: the number itself is where its variable belongs.
-      bool lost = false;
-      if (store != nullptr && target && std::holds_alternative<ir::Binary>(store->value->node))
-        ir::eachNode(store->value, [&](const ir::Expression& node) {
-          const auto* constant = std::get_if<ir::Constant>(&node.node);
-          lost = lost || (constant != nullptr && constant->value == *target && *target >= kFirstCommon &&
-                          constant->digits.find('.') == std::string::npos && !indices.contains(&node));
-        });
-      const auto* sum = store == nullptr ? nullptr : std::get_if<ir::Binary>(&store->number->node);
-      // `#[158+1]` counts on from a base.
-      const double* base = sum == nullptr ? nullptr : ir::constantValue(sum->left);
-      const double* step = sum == nullptr ? nullptr : ir::constantValue(sum->right);
-      lost = lost || (base != nullptr && step != nullptr && *base >= kFirstCommon && *step >= kFirstCommon);
-      if (lost)
+      if (store != nullptr && isLost(*store, target, seen))
         report.at(statement.origin.range(),
                   "a number is here where its variable belongs; the control calculates "
                   "with the number; write the `#` before it");
-      if (words) continue;
+      if (words || seen.numbers.empty()) continue;
       std::set<const ir::Expression*> inNumber; // of the number of the variable that is set
       if (store != nullptr)
         ir::eachNode(store->number, [&](const ir::Expression& node) { inNumber.insert(&node); });
-      ir::eachNode(statement, [&](const ir::Expression& node) {
-        const auto* constant = std::get_if<ir::Constant>(&node.node);
-        if (constant == nullptr || indices.contains(&node)) return;
-        if (store != nullptr && inNumber.contains(&node)) return;
-        if (constant->value < kFirstCommon || constant->value > kLastCommon ||
-            constant->digits.find('.') != std::string::npos || constant->value != std::floor(constant->value))
-          return;
-        mine.used.emplace(static_cast<std::uint32_t>(constant->value),
-                          node.range.hasPlace() ? node.range : statement.origin.range());
-      });
+      for (const auto& [node, number] : seen.numbers)
+        if (!seen.isIndex(node) && !inNumber.contains(node))
+          mine.used.emplace(number, node->range.hasPlace() ? node->range : statement.origin.range());
     }
   });
   for (const Numbers& one : programs)

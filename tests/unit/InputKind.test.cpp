@@ -268,3 +268,19 @@ TEST_CASE("input kind: what explain prints of a macro is no macro") {
   CHECK(kindOf(text).starts_with("none: "));
   CHECK(kindOf("#INCLUDE \"my file.mac\"\n#include limits.mac\n") == "mac");
 }
+
+TEST_CASE(
+    "input kind: of a long program of macro B the first lines decide, of any other text all are asked") {
+  std::string programs, blocks, foreign;
+  for (int i = 0; i < 40; ++i)
+    programs += kMacro;
+  for (int i = 0; i < 600; ++i)
+    blocks += "G1 X" + std::to_string(i) + ". Y2. F300\n";
+  for (int i = 0; i < 600; ++i)
+    foreign += "IF R1>5 GOTOF END1\nCYCLE81(50,0,2,-10)\n";
+  CHECK(recognise("a.nc", programs).reason == "250 of 250 lines are blocks of NC");
+  CHECK(recognise("a.xyz", programs).reason == "600 of 600 lines are blocks of NC");
+  CHECK(kindOf(programs + foreign, "a.nc") == "nc");
+  CHECK(kindOf(programs.substr(0, 900) + foreign, "a.nc") == "none: Sinumerik (Siemens)");
+  CHECK(kindOf("%\nO1\n" + blocks + foreign, "a.nc") == "none: Sinumerik (Siemens)");
+}
