@@ -61,7 +61,7 @@ struct Raw {
   std::vector<std::string> properties;         // --property
   std::string matrix, otherPost, expect, unit; // of run-post
   std::string tool, length, radius, diameter, at, call;
-  bool replay = false;
+  bool replay = false, allowEdits = false;
   bool json = false, quiet = false, force = false;
   std::uint32_t maxErrors = 50;
   bool recover = false;
@@ -120,6 +120,8 @@ driver::CommonOptions commonOf(const Raw& raw);
 // was given.
 void addPost(CLI::App& app, Raw& raw);
 void addRunPost(CLI::App& app, Raw& raw);
+// What of a program convert is asked for, and verify that it was: --defaults, --arg, --probe-power.
+void addOfProgram(CLI::App& command, Raw& raw);
 void addConvert(CLI::App& app, Raw& raw);
 void addLint(CLI::App& app, Raw& raw);
 void addDump(CLI::App& app, Raw& raw);

@@ -4,6 +4,18 @@
 
 namespace dotek::cli {
 
+void addOfProgram(CLI::App& command, Raw& raw) {
+  command
+      .add_option("--defaults", raw.defaultsMode,
+                  "an omitted argument that moves the probe: alarm, or use its default")
+      ->check(CLI::IsMember({"alarm", "use"}));
+  addSeveral(command, "--arg", raw.letters, "letter of an argument", "NAME=LETTER");
+  command
+      .add_option("--probe-power", raw.probePower,
+                  "the probe is switched where the source does it, or by the program itself")
+      ->check(CLI::IsMember({"source", "macro"}));
+}
+
 void addConvert(CLI::App& app, Raw& raw) {
   CLI::App* convert = app.add_subcommand(
       "convert", "turn cycles into programs that stay on the control, or programs into those of another");
@@ -13,15 +25,7 @@ void addConvert(CLI::App& app, Raw& raw) {
       ->type_name("START:STEP");
   addSeveral(*convert, "--default", raw.defaults, "default of an argument that may be left out",
              "NAME=VALUE");
-  convert
-      ->add_option("--defaults", raw.defaultsMode,
-                   "an omitted argument that moves the probe: alarm, or use its default")
-      ->check(CLI::IsMember({"alarm", "use"}));
-  addSeveral(*convert, "--arg", raw.letters, "letter of an argument", "NAME=LETTER");
-  convert
-      ->add_option("--probe-power", raw.probePower,
-                   "the probe is switched where the source does it, or by the program itself")
-      ->check(CLI::IsMember({"source", "macro"}));
+  addOfProgram(*convert, raw);
   convert->add_option("--program-number", raw.programNumber, "O number of the program (8000)")
       ->type_name("N");
   convert->add_flag("--whole-post", raw.wholePost, "with --to fusion: the smallest post around the cycles");

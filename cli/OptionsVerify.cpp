@@ -63,10 +63,16 @@ void addVerify(CLI::App& app, Raw& raw) {
   addTranslation(*verify, raw,
                  "language of the translation: " + targets::targetNames() +
                      "; without it the path of the macro is compared with the posted program");
+  CLI::Option* const translation =
+      verify
+          ->add_option("--translation", raw.translation,
+                       "look at this program instead of what convert writes: the same one, edited by hand")
+          ->type_name("FILE");
   verify
-      ->add_option("--translation", raw.translation,
-                   "look at this program instead of what convert writes: the same one, edited by hand")
-      ->type_name("FILE");
+      ->add_flag("--allow-edits", raw.allowEdits,
+                 "of --translation: lines that no case tells from what convert writes are warnings")
+      ->needs(translation);
+  addOfProgram(*verify, raw);
   addSeveral(*verify, "--default", raw.defaults, "default of an argument, first value of a field of a dialog",
              "NAME=VALUE");
   addSeveral(*verify, "--var", raw.variables,
@@ -127,6 +133,11 @@ driver::VerifyOptions verifyOf(const Raw& raw) {
     out.activeSystem = static_cast<std::uint32_t>(countOf("--active-system", raw.activeSystem, 54, 54, 59));
   out.variables = pairsOf("--var", raw.variables);
   out.defaults = pairsOf("--default", raw.defaults);
+  out.allowEdits = raw.allowEdits;
+  out.letters = pairsOf("--arg", raw.letters);
+  out.useDefaults = raw.defaultsMode == "use";
+  out.switchProbe = raw.probePower == "macro";
+  if (out.switchProbe) out.common.assume.insert("probe-on");
   out.replay = raw.replay;
   out.values = pairsOf("--value", raw.values);
   if (!out.values.empty() && !out.replay)

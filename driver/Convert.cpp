@@ -139,7 +139,7 @@ private:
     if (options_.source.cycle && options_.inputs.size() > 1) diagnostics.report<diag::CycleWithSeveral>({});
     if (options_.oneFile && options_.inputs.size() > 1 && !options_.wholePost)
       diagnostics.report<diag::OutputForOne>({}, options_.inputs.size());
-    readLetters();
+    readLetters(context_);
     const bool programs = classify();
     if (foldersOfPrograms_) return false; // flags of programs would be called wrong
     const bool cycles = !folderPaths_.empty();
@@ -212,15 +212,6 @@ private:
           session_.diagnostics().report<diag::CycleTarget>({}, inputName(options_.inputs[input.place]));
         });
     return !session_.diagnostics().hasErrors();
-  }
-
-  void readLetters() {
-    for (const auto& [name, text] : options_.letters) {
-      if (text.size() != 1)
-        session_.diagnostics().report<diag::LetterNotAllowed>({}, name, text);
-      else if (!context_.letters.emplace(name, text[0]).second)
-        session_.diagnostics().report<diag::GivenTwice>({}, "--arg", name);
-    }
   }
 
   // Neither two files of one name nor two programs of one number. Two of one file were compared before.

@@ -98,6 +98,7 @@ VerifyOptions optionsOf(const ConvertOptions& options, const std::string& input)
   out.inputs = {input};
   out.defaults = options.defaults;
   out.useDefaults = options.useDefaults;
+  out.letters = options.letters;
   // The program switches the probe by itself, so the source is where it is on.
   if (options.switchProbe) out.common.assume.insert("probe-on");
   out.switchProbe = options.switchProbe;

@@ -84,6 +84,9 @@ private:
       if (options_.probeMacros && session_.macroSet(*options_.probeMacros) == nullptr)
         reportUnknownMacroSet(*options_.probeMacros, session_);
       none(options_.translation.has_value(), "--translation", diag::FlagWithoutTarget{});
+      none(options_.useDefaults, "--defaults use", diag::FlagWithoutTarget{});
+      none(options_.switchProbe, "--probe-power macro", diag::FlagWithoutTarget{});
+      none(!options_.letters.empty(), "--arg", diag::FlagWithoutTarget{});
       none(!options_.datum.empty(), "--datum", diag::FlagWithoutTarget{});
     }
     if (options_.to.empty() && !options_.source.prog && !diagnostics.hasErrors())
@@ -190,19 +193,21 @@ private:
         if (!plan_.fixedHosts.contains(std::string(host)))
           session.diagnostics().report<diag::EditedNeedsValues>({}, fmt::format("--host {}", host));
       if (session.diagnostics().hasErrors()) return false;
-      edited_ = !isWritten(*bytes);
+      const std::string written = writtenNow();
+      edited_ = written != *bytes;
+      if (edited_) translation.converted = written;
     }
     plan_.translation = std::move(translation);
     return true;
   }
 
-  // Whether convert writes this text for the values that are given.
-  bool isWritten(const std::string& text) {
+  // What convert writes for the values that are given; "" where it refuses them.
+  std::string writtenNow() {
     Diagnostics& diagnostics = main_.session().diagnostics();
     const Diagnostics before = std::exchange(diagnostics, Diagnostics());
     const std::optional<Translated> written = translated(options_, main_.compilation(), &main_.inputs());
     diagnostics = before;
-    return written && written->translation.text == text;
+    return written ? written->translation.text : std::string();
   }
 
   const VerifyOptions& options_;

@@ -5,6 +5,7 @@
 #include "project/Values.h"
 #include "support/Decimal.h"
 #include "support/messages/Commands.h"
+#include "support/messages/Fanuc.h"
 #include "support/messages/Sim.h"
 
 #include <algorithm>
@@ -43,6 +44,16 @@ std::vector<std::string> cycleOptions(const ConvertOptions& options) {
 }
 
 } // namespace
+
+void readLetters(ConversionContext& context) {
+  Diagnostics& diagnostics = context.session.diagnostics();
+  for (const auto& [name, text] : context.options.letters) {
+    if (text.size() != 1)
+      diagnostics.report<diag::LetterNotAllowed>({}, name, text);
+    else if (!context.letters.emplace(name, text[0]).second)
+      diagnostics.report<diag::GivenTwice>({}, "--arg", name);
+  }
+}
 
 void refuseOptions(const ConvertOptions& options, bool programs, bool cycles, Diagnostics& diagnostics) {
   if (programs && !cycles)

@@ -84,6 +84,9 @@ template <class Written> std::unique_ptr<Conversion> conversionBy(ConversionCont
   return std::make_unique<Written>(context);
 }
 
+// The letters of --arg into the context; what is none is reported.
+void readLetters(ConversionContext& context);
+
 // Reports options of the command line that none of the inputs takes.
 void refuseOptions(const ConvertOptions& options, bool programs, bool cycles, Diagnostics& diagnostics);
 

@@ -85,10 +85,12 @@ struct VerifyOptions : TranslationOptions {
   NamedTexts variables;      // --var N=VALUE, of programs: not drawn
   bool oneOfSeveral = false; // what --set and --field name may be of another input
   bool byConvert = false;    // what the report names as its command is `convert --verify`
-  // Of what convert wrote: --default, --defaults use and --probe-power macro.
+  bool allowEdits = false; // lines of it that no case tells from what convert writes are warnings
+  // Of what convert writes: --default, --defaults use, --probe-power macro, --arg.
   bool switchProbe = false;
   NamedTexts defaults;
   bool useDefaults = false;
+  NamedTexts letters;
   // What convert wrote; nullptr: verify converts the input itself.
   std::shared_ptr<const ConvertedInput> converted;
   // Of a replay: values of fields and host inputs, which the translation gets as arguments like drawn ones.

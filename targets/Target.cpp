@@ -93,8 +93,11 @@ void checkTargetOptions(const Target& target, const VerifyOptions& options, Diag
   if (!target.takesPathAlone && !options.source.prog)
     diagnostics.report<diag::MissingOption>(
         {}, "verify", "--prog PROG.txt", "a drawn path states no measurement that such a program could make");
-  const Given flags[] = {{TargetFlag::ProgramNumber, options.programNumber.has_value(), "--program-number"},
+  const Given flags[] = {{TargetFlag::Arg, !options.letters.empty(), "--arg"},
+                         {TargetFlag::ProgramNumber, options.programNumber.has_value(), "--program-number"},
                          {TargetFlag::ProbeMacros, options.probeMacros.has_value(), "--probe-macros"},
+                         {TargetFlag::DefaultsUse, options.useDefaults, "--defaults use"},
+                         {TargetFlag::ProbePower, options.switchProbe, "--probe-power macro"},
                          {TargetFlag::Result, !options.results.empty(), "--result"}};
   refuse(target, options.to, flags, diagnostics);
   checkDatum(target, options.to, options.datum, diagnostics);

@@ -2,6 +2,8 @@
 
 #include "sim/geometry/PartFile.h"
 #include "support/Files.h"
+#include "support/LineMatch.h"
+#include "support/messages/Fanuc.h"
 #include "support/messages/Verify.h"
 #include "targets/Conversion.h"
 #include "targets/Target.h"
@@ -32,6 +34,9 @@ ConvertOptions convertOptionsOf(const VerifyOptions& options) {
   static_cast<TranslationOptions&>(out) = options;
   out.programNumber = options.programNumber;
   out.defaults = options.defaults;
+  out.letters = options.letters;
+  out.useDefaults = options.useDefaults;
+  out.switchProbe = options.switchProbe;
   return out;
 }
 
@@ -51,6 +56,7 @@ std::optional<Translated> translated(const VerifyOptions& options, Compilation& 
   const ConvertOptions convert = convertOptionsOf(options);
   ConversionContext context{convert, compilation, session, compilation.folders(), compilation.usedSets(),
                             inputs};
+  readLetters(context);
   const std::unique_ptr<Conversion> conversion = findTarget(options.to)->convert(context);
   if (inputs != nullptr ? !conversion->beginCycles() : !conversion->beginPrograms()) return std::nullopt;
   if (inputs != nullptr)
@@ -58,6 +64,9 @@ std::optional<Translated> translated(const VerifyOptions& options, Compilation& 
   else
     conversion->program(options.inputs.front());
   conversion->finish();
+  for (const auto& [name, letter] : context.letters)
+    if (!context.usedLetters.contains(name))
+      session.diagnostics().report<diag::ArgumentUnknown>({}, name, "");
   const ConversionResult& result = context.result;
   const bool several = findTarget(options.to)->writesFolder;
   if (session.diagnostics().hasErrors() || result.files.empty() || (result.files.size() != 1 && !several))
@@ -76,27 +85,13 @@ bool takeEdited(const std::string& path, Translation& translation, Session& sess
   const auto bytes = readBytes(path, session.limits(), session.diagnostics());
   if (!bytes) return false;
   const SourceFile before("", translation.text, Encoding::Utf8), now("", *bytes, Encoding::Utf8);
-  const std::uint32_t rows = before.lineCount(), columns = now.lineCount();
-  constexpr std::uint64_t kMost = 25'000'000;
-  std::vector<std::optional<std::set<std::pair<std::string, std::uint32_t>>>> sources(columns);
-  if (std::uint64_t{rows} * columns <= kMost) {
-    // The longest common subsequence of lines.
-    std::vector<std::vector<std::uint32_t>> common(rows + 1, std::vector<std::uint32_t>(columns + 1, 0));
-    for (std::uint32_t r = rows; r-- > 0;)
-      for (std::uint32_t c = columns; c-- > 0;)
-        common[r][c] = before.line(r + 1) == now.line(c + 1) ? common[r + 1][c + 1] + 1
-                                                             : std::max(common[r + 1][c], common[r][c + 1]);
-    for (std::uint32_t r = 0, c = 0; r < rows && c < columns;) {
-      if (before.line(r + 1) == now.line(c + 1)) {
-        if (r < translation.sources.size()) sources[c] = translation.sources[r];
-        ++r, ++c;
-      } else if (common[r + 1][c] >= common[r][c + 1]) {
-        ++r;
-      } else {
-        ++c;
-      }
-    }
-  }
+  std::vector<std::optional<std::set<std::pair<std::string, std::uint32_t>>>> sources(now.lineCount());
+  const auto same = matchLines(before.lineCount(), now.lineCount(), [&](std::uint32_t r, std::uint32_t c) {
+    return before.line(r + 1) == now.line(c + 1);
+  });
+  if (same)
+    for (const auto& [r, c] : *same)
+      if (r < translation.sources.size()) sources[c] = translation.sources[r];
   translation.converted = std::move(translation.text);
   translation.name = path;
   translation.text = *bytes;

@@ -260,9 +260,14 @@ std::string VerifyReport::command() const {
     flag("--result", name + "=" + variable);
   for (const auto& [name, value] : options_.defaults)
     flag("--default", name + "=" + value);
+  if (options_.useDefaults) flag("--defaults", "use");
+  if (options_.switchProbe) flag("--probe-power", "macro");
+  for (const auto& [name, letter] : options_.letters)
+    flag("--arg", name + "=" + letter);
   if (options_.programNumber) flag("--program-number", std::to_string(*options_.programNumber));
   if (options_.common.job) flag("--job", *options_.common.job);
   if (options_.translation) flag("--translation", *options_.translation);
+  if (options_.allowEdits) out += " --allow-edits";
   if (options_.part) flag("--part", *options_.part);
   if (options_.machine) flag("--machine", *options_.machine);
   for (const std::string& assumption : options_.common.assume)
@@ -396,9 +401,6 @@ std::string VerifyReport::wholeCommand() const {
   pairs("--set", options_.common.set);
   pairs("--host", options_.common.host);
   pairs("--var", options_.variables);
-  pairs("--default", options_.defaults);
-  if (options_.useDefaults) addFlag(out, "--defaults", "use");
-  if (options_.switchProbe) addFlag(out, "--probe-power", "macro");
   if (options_.byConvert) return out;
   const VerifyOptions usual;
   if (options_.cases != usual.cases) addFlag(out, "--cases", std::to_string(options_.cases));
@@ -490,8 +492,12 @@ std::string VerifyReport::verdict() {
     return out;
   };
   constexpr std::string_view kWords[] = {"AGREES", "DIFFERS", "UNDECIDED"};
-  std::string out = fmt::format("{}: {}", kWords[static_cast<std::size_t>(word)],
-                                part(cases_.agree, cases_.differ, undecided, cases_.all(), " drawn cases"));
+  // What keeps them from the verdict is reported above it: a line that was edited.
+  const bool allAgree = word == Word::Undecided && undecided == 0 && cases_.agree > 0;
+  const std::string cases = part(cases_.agree, cases_.differ, undecided, cases_.all(), " drawn cases");
+  std::string out =
+      fmt::format("{}: {}", kWords[static_cast<std::size_t>(word)],
+                  allAgree ? fmt::format("{} agree of {} drawn cases", cases_.agree, cases_.all()) : cases);
   if (edges_.all() > 0) {
     const std::uint64_t said = word == Word::Differs ? edges_.differ : edges_.none;
     const std::string edges = part(edgesAlike, edges_.differ, edges_.none, edges_.all(), "");
@@ -544,6 +550,7 @@ std::string VerifyReport::finish() {
   tellReplaced();
   tellUnstated();
   tellAlarms();
+  tellEdits();
   const std::uint64_t all = cases_.all();
   if (stated && static_cast<double>(cases_.agree) < options_.minAgreed / 100 * static_cast<double>(all))
     told_.report<diag::VerifyTooFew>({}, cases_.agree, all, numberText(options_.minAgreed));

@@ -66,6 +66,7 @@ private:
   void tellReplaced();
   void tellUnstated();
   void tellAlarms();
+  void tellEdits();
   VerifyDocument::Excerpt excerptOf(SourceRange range);
   std::string pairText() const;
   void describe();

@@ -100,6 +100,7 @@ TEST_CASE("cycle tools: what is set and read does the same on a control") {
     const std::size_t at = changed.rfind(was);
     REQUIRE(at != std::string::npos);
     changed.replace(at, std::string(was).size(), is);
+    options.allowEdits = true; // the cases alone are to show it
     options.translation = folder.write("O8000.nc", changed);
     const driver::Outcome planted = driver::verify(options);
     CHECK_MESSAGE(planted.output.starts_with("DIFFERS"), said(planted));

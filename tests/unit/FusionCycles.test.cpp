@@ -183,6 +183,7 @@ TEST_CASE("fusion cycles: a change of the fragment is seen") {
     edited.replace(at, std::string_view(one.was).size(), one.is);
     driver::VerifyOptions options = verifying(path);
     options.cases = 20;
+    options.allowEdits = true; // the cases alone are to show it
     options.translation = folder.write("face.js", edited);
     const driver::Outcome outcome = driver::verify(options);
     CHECK_MESSAGE(outcome.status != 0, said(outcome));

@@ -60,6 +60,7 @@ inline std::string verified(const Shop& of, const std::string& text = "") {
   take(of, options);
   options.cases = of.cases;
   options.jobs = 1;
+  options.allowEdits = true; // the cases alone are to show it
   if (!text.empty()) options.translation = scratch.write("edited", text);
   const driver::Outcome outcome = driver::verify(options);
   return renderText(outcome.diagnostics, outcome.sources, 0) + outcome.output;

@@ -91,6 +91,7 @@ TEST_CASE("verify: a tool length that the translation lacks, or puts in force la
   const std::string later = without.substr(0, after) + block + without.substr(after);
   const auto judged = [&](const std::string& translation) {
     driver::VerifyOptions options = cycle(prog, "fanuc");
+    options.allowEdits = true; // the cases alone are to show it
     options.translation = folder.write("edited.nc", translation);
     const driver::Outcome outcome = driver::verify(options);
     return outcome.output + told(outcome);
@@ -111,6 +112,7 @@ TEST_CASE("verify: a tool offset that is mixed up, or written otherwise, is a di
     std::string other = text;
     other.replace(other.find(from), std::string(from).size(), to);
     driver::VerifyOptions options = programs(source);
+    options.allowEdits = true; // the cases alone are to show it
     options.translation = folder.write("edited.nc", other);
     const driver::Outcome outcome = driver::verify(options);
     CHECK(outcome.output.starts_with("DIFFERS: 60 of 60"));

@@ -43,7 +43,8 @@ TEST_CASE("verify cycles: a demand on the caller or a check that is lost is seen
   const ProcessFolder folder;
   folder.write("groove.cycle", kGroove);
   REQUIRE(folder.run(std::string("dotek convert groove.cycle") + kFlags + "-o whole.nc").status == 0);
-  const std::string verify = std::string("dotek verify groove.cycle") + kFlags + "--cases 60 --translation ";
+  const std::string verify =
+      std::string("dotek verify groove.cycle") + kFlags + "--cases 60 --allow-edits --translation ";
   const ShellResult whole = folder.run(verify + "whole.nc");
   CHECK_MESSAGE(whole.status == 0, whole.out << whole.err);
 
@@ -76,7 +77,7 @@ TEST_CASE("verify cycles: a demand of the program that a fragment carries is see
   const std::string flags = std::string(" --to fusion --host approach_feed=1000 --control fanuc-31i-b ") +
                             "--probe-macros inspection-plus --result width=#600,middle=#601 ";
   REQUIRE(folder.run("dotek convert groove.cycle" + flags + "-o whole.js").status == 0);
-  const std::string verify = "dotek verify groove.cycle" + flags + "--cases 20 --translation ";
+  const std::string verify = "dotek verify groove.cycle" + flags + "--cases 20 --allow-edits --translation ";
   const ShellResult whole = folder.run(verify + "whole.js");
   CHECK_MESSAGE(whole.status == 0, whole.out << whole.err);
   for (const char* const lost : {"NOT METRIC", "ROTATION ACTIVE", "ARGUMENT A MISSING"}) {

@@ -60,6 +60,7 @@ driver::Outcome verifyPlanted(driver::VerifyOptions options, const Planted& plan
   REQUIRE_MESSAGE(at != std::string::npos, text);
   text.replace(at, std::string_view(planted.was).size(), planted.is);
   const TestFolder folder("dotek-planted");
+  options.allowEdits = true; // the cases alone are to show it
   options.translation = folder.write("O8000.nc", text);
   return driver::verify(options);
 }

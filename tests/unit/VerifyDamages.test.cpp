@@ -38,7 +38,8 @@ void checkDamages(const ProcessFolder& folder, const std::string& source, const 
   const std::string whole = "whole." + suffix, less = "less." + suffix;
   const ShellResult written = folder.run("dotek convert " + source + flags + " -o " + whole);
   REQUIRE_MESSAGE(written.status == 0, written.out << written.err);
-  const std::string verify = "dotek verify " + source + flags + ofVerify + " --cases 40 --translation ";
+  const std::string verify =
+      "dotek verify " + source + flags + ofVerify + " --cases 40 --allow-edits --translation ";
   const ShellResult good = folder.run(verify + whole);
   CHECK_MESSAGE(good.status == 0, good.out << good.err);
   for (const Damage& one : damages) {
@@ -81,8 +82,8 @@ TEST_CASE("verify: a variable of the shop that a translation forgets is a differ
   checkDamages(
       folder, source, flags, "nc",
       {{"s/#610=.*/#610=#135/", "#610 is"}, {"s/+#540/-#540/", "#610 is"}, {"s/#540/#541/", "#610 is"}});
-  const ShellResult given =
-      folder.run("dotek verify " + source + flags + " --var 540=3 --cases 40 --translation less.nc");
+  const ShellResult given = folder.run("dotek verify " + source + flags +
+                                       " --var 540=3 --cases 40 --allow-edits --translation less.nc");
   CHECK_MESSAGE(given.err.find("--var 540=3") != std::string::npos, given.out << given.err);
 }
 
@@ -214,7 +215,8 @@ TEST_CASE("verify: a register that is written wrongly is named beside the one th
   const std::string head = "O9722\nIF[#1EQ#0]THEN#3000=1(A)\nG91G31Z-5.F50\nG90\n";
   folder.write("a.nc", head + "#2005=#1\n#601=#1\nG4X1.\nM99\n");
   folder.write("bad.nc", "%\n" + head + "#2006=#1\n#602=#1\nG4X1.\nM99\n%\n");
-  const std::string said = folder.run("dotek verify a.nc --to fanuc --translation bad.nc --cases 20").err;
+  const std::string said =
+      folder.run("dotek verify a.nc --to fanuc --allow-edits --translation bad.nc --cases 20").err;
   for (const char* one :
        {"a.nc:5:1: error: tool offset differs: tool offset 5:", "tool offset 6: the source does not write it",
         "a.nc:6:1: error: variable differs: #601:", "#602: the source does not write it",
@@ -231,7 +233,7 @@ TEST_CASE("verify: a difference of a variable names the statements that write it
     std::string bad = body;
     bad.replace(bad.find(from), from.size(), to);
     folder.write("bad.nc", "%\nO9720\n" + bad + "%\n");
-    return folder.run("dotek verify a.nc --to fanuc --translation bad.nc --cases 20").err;
+    return folder.run("dotek verify a.nc --to fanuc --allow-edits --translation bad.nc --cases 20").err;
   };
   for (const auto& [from, to, line] :
        std::vector<std::array<std::string, 3>>{{"#101+1", "#101+2", "7"}, {"#101*2", "#101*3", "6"}}) {
@@ -246,7 +248,8 @@ TEST_CASE("verify: a difference of a variable names the statements that write it
   CHECK_MESSAGE(again.find("a.nc:8:") != std::string::npos, again);
   folder.write("a.nc", "O9720\n#9=100\n" + body.substr(0, body.find("G4")) + "#[#9+2]=#102*2\nM99\n");
   folder.write("bad.nc", "O9720\n#9=100\n" + body.substr(0, body.find("G4")) + "#[#9+2]=#102*3\nM99\n");
-  const std::string computed = folder.run("dotek verify a.nc --to fanuc --translation bad.nc --cases 20").err;
+  const std::string computed =
+      folder.run("dotek verify a.nc --to fanuc --allow-edits --translation bad.nc --cases 20").err;
   CHECK_MESSAGE(computed.find("a.nc:9:1: error: variable differs: #102") != std::string::npos, computed);
   CHECK_MESSAGE(computed.find("bad.nc:9:1: note: of the translation") != std::string::npos, computed);
 }
@@ -259,7 +262,7 @@ TEST_CASE("verify: a difference of an offset names the statements that write it"
   const auto told = [&](const std::string& write, const std::string& other, const std::string& first = "") {
     folder.write("a.nc", head + first + touch + write + "G4X1.\nM99\n");
     folder.write("bad.nc", "%\n" + head + first + touch + other + "G4X1.\nM99\n%\n");
-    return folder.run("dotek verify a.nc --to fanuc --translation bad.nc --cases 20").err;
+    return folder.run("dotek verify a.nc --to fanuc --allow-edits --translation bad.nc --cases 20").err;
   };
   struct Offset {
     std::string aspect, write, other;

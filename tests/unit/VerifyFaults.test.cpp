@@ -230,6 +230,7 @@ Findings judge(const Target& target, const Fault& fault, const OwnFeatures& feat
       folder.write("macrob/dotek.nc", text);
       options.common.data = {folder.path()};
     } else {
+      options.allowEdits = true; // the cases alone are to show it
       options.translation = folder.write("faulty.nc", text);
     }
     const Told told = toldBy(options);

@@ -263,6 +263,7 @@ TEST_CASE("verify sees faults in the frame of programs") {
     list.erase(list.begin() + static_cast<std::ptrdiff_t>(at));
     --left;
     driver::VerifyOptions options = place.in->options;
+    options.allowEdits = true; // the cases alone are to show it
     options.translation = folder.write("faulty.nc", withFault(place.in->text, place.fault));
     Counts& count = counts[place.fault.kind == "" ? "" : frameFaultKinds()[turn % frameFaultKinds().size()]];
     ++count.drawn;
@@ -398,6 +399,7 @@ bool changes(const Told& right, const Told& told) {
 
 Came plant(PlantedKind::Place& place, const Family& family, const TestFolder& folder) {
   driver::VerifyOptions options = place.in->options;
+  options.allowEdits = true; // the cases alone are to show it
   options.translation = folder.write("faulty", withFault(place.in->text, place.fault));
   bool changed = &family != &kMotion;
   for (const std::uint64_t cases : {kFewCases, kCases}) { // most of them show in the first cases

@@ -97,7 +97,7 @@ TEST_CASE("verify to gibbs: a dialog or a branch that was damaged differs") {
                     first = folder.read("out/bore/DefineData.txt");
   const auto verdict = [&](const std::string& cases) {
     return folder.run("dotek verify " + cycle("bore") + convert + "--cases " + cases +
-                      " --jobs 1 --translation out/bore/branch.txt");
+                      " --jobs 1 --allow-edits --translation out/bore/branch.txt");
   };
   const std::string cases = std::to_string(draws(40U, 10U));
   CHECK_MESSAGE(verdict(cases).out.starts_with("AGREES"), branch);
@@ -143,7 +143,7 @@ TEST_CASE("verify to gibbs: a dialog that asks for something else differs") {
     REQUIRE_MESSAGE(!damaged.empty(), dialog);
     folder.write("out/JT.Slot.Datum/CycleData.dlg", damaged);
     const ShellResult result = folder.run("dotek verify " + source +
-                                          "--jobs 1 --cases 8 --translation "
+                                          "--jobs 1 --cases 8 --allow-edits --translation "
                                           "out/JT.Slot.Datum/branch.txt");
     return result.out + result.err;
   };
@@ -212,7 +212,7 @@ above = sum
   REQUIRE(folder.run("dotek convert least.cycle" + to + "-d out").status == 0);
   const auto verdict = [&] {
     return folder.run("dotek verify least.cycle" + to +
-                      "--jobs 1 --translation out/least/branch.txt --cases " +
+                      "--jobs 1 --allow-edits --translation out/least/branch.txt --cases " +
                       std::to_string(draws(60U, 10U)));
   };
   const ShellResult sound = verdict();

@@ -81,9 +81,9 @@ public:
     const std::string cycle = "dotek convert eye --form thesis-a --to " + to + " --prog ";
     const ShellResult made = folder_.run(cycle + other + " -d out");
     REQUIRE_MESSAGE(made.status == 0, made.out << made.err);
-    const ShellResult found =
-        folder_.run("dotek verify eye --form thesis-a --to " + to + " --prog " + source +
-                    " --translation out/" + written + " --jobs 1 --cases " + std::to_string(draws(10U, 8U)));
+    const ShellResult found = folder_.run("dotek verify eye --form thesis-a --to " + to + " --prog " +
+                                          source + " --allow-edits --translation out/" + written +
+                                          " --jobs 1 --cases " + std::to_string(draws(10U, 8U)));
     folder_.run("rm -r out");
     return found.out + found.err;
   }

@@ -232,6 +232,7 @@ TEST_CASE("verify: planted differences of a program are found") {
     REQUIRE_MESSAGE(at != std::string::npos, before);
     edited.replace(at, std::string_view(before).size(), after);
     driver::VerifyOptions options = optionsFor(path, 200);
+    options.allowEdits = true; // the cases alone are to show it
     options.translation = folder.write("edited.nc", edited);
     const driver::Outcome outcome = driver::verify(options);
     CAPTURE(std::string(before) + " -> " + after);
@@ -345,6 +346,7 @@ TEST_CASE("verify: codes in force at the end are compared by meaning where contr
     for (const auto& [one, other] : {std::pair("G18\n", "G19\n"), std::pair("G18\n", "")}) {
       std::string edited = text;
       edited.replace(edited.find(one), std::string(one).size(), other);
+      options.allowEdits = true; // the cases alone are to show it
       options.translation = folder.write("edited.nc", edited);
       const driver::Outcome wrong = driver::verify(options);
       CHECK_MESSAGE(wrong.output.starts_with("DIFFERS: 4 of 4"), (wrong.output + codesOf(wrong)));
@@ -375,6 +377,7 @@ TEST_CASE(
     const std::size_t at = text.find(one);
     REQUIRE_MESSAGE(at != std::string::npos, one);
     text.replace(at, std::string(one).size(), other);
+    options.allowEdits = true; // the cases alone are to show it
     options.translation = folder.write("edited.nc", text);
     const driver::Outcome wrong = driver::verify(options);
     CHECK_MESSAGE(wrong.output.starts_with("DIFFERS"), (wrong.output + codesOf(wrong)));

@@ -51,6 +51,7 @@ public:
     options.cases = cases;
     options.jobs = jobs;
     folder_.write("edited.js", text);
+    options.allowEdits = true; // the cases alone are to show it
     options.translation = folder_.path("edited.js");
     return driver::verify(options);
   }
@@ -242,7 +243,7 @@ TEST_CASE("a process that runs scripts ends with the one that started it") {
   folder.write("edited.js", Edited().within("for (;;) {}"));
   const std::string verify = "verify '" + (root() / "examples" / "surface-x").string() + "' --prog '" +
                              (root() / "examples" / "post.txt").string() +
-                             "' --to fusion --translation edited.js --limit script-seconds=60";
+                             "' --to fusion --allow-edits --translation edited.js --limit script-seconds=60";
   // Its children are the workers; each of them has gone a moment after it.
   const ShellResult result = folder.run("\"$DOTEK\" " + verify + R"( & P=$!
 for i in $(seq 200); do W=$(pgrep -P $P) && break; sleep 0.05; done
@@ -283,6 +284,7 @@ TEST_CASE("verify of a fragment sees titles of a list that were exchanged") {
   REQUIRE_MESSAGE((one != std::string::npos && other != std::string::npos), text);
   const ProcessFolder folder;
   folder.write("edited.js", text);
+  options.allowEdits = true; // the cases alone are to show it
   options.translation = folder.path("edited.js");
   CHECK(driver::verify(options).status == 0);
   text.replace(other, 8, "\"links\"");

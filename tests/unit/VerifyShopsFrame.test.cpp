@@ -42,6 +42,7 @@ int verified(const Shop& of, const std::string& text, std::uint64_t cases = 40, 
   take(options, of);
   options.cases = cases;
   options.jobs = 1;
+  options.allowEdits = true; // the cases alone are to show it
   options.translation = folder.write("edited", text);
   const driver::Outcome outcome = driver::verify(options);
   if (said != nullptr) *said = renderText(outcome.diagnostics, outcome.sources, 0);

@@ -46,6 +46,7 @@ std::string verified(const Shop& of, const std::string& text = "") {
   take(options, of);
   options.cases = 20;
   options.jobs = 1;
+  options.allowEdits = true; // the cases alone are to show it
   if (!text.empty()) options.translation = folder.write("edited", text);
   const driver::Outcome outcome = driver::verify(options);
   return renderText(outcome.diagnostics, outcome.sources, 0) + outcome.output;

@@ -72,6 +72,7 @@ driver::Outcome verified(const std::string& to, const std::string& text) {
   const TestFolder scratch("dotek-verify-targets");
   driver::VerifyOptions run = options(to);
   run.cases = 20;
+  run.allowEdits = true; // the cases alone are to show it
   run.translation = scratch.write("edited", text);
   if (to == "mikroprog") addTo(run.common, kValues, kHosts);
   return driver::verify(run);
@@ -110,6 +111,7 @@ TEST_CASE("the report says whether a program of Mikroprog is edited") {
     driver::VerifyOptions run = options("mikroprog");
     run.cases = 5;
     run.format = targets::ReportFormat::Json;
+    run.allowEdits = true; // the cases alone are to show it
     run.translation = scratch.write("edited", text);
     addTo(run.common, kValues, kHosts);
     return driver::verify(run).files.at(0).text;
@@ -232,6 +234,7 @@ TEST_CASE("a fragment has to do with what a drilling operation has, and searches
   const auto verdictOf = [&](const std::string& text) {
     driver::VerifyOptions run = options("fusion");
     run.probeMacros = "dotek";
+    run.allowEdits = true; // the cases alone are to show it
     run.translation = scratch.write("edited.js", text);
     const driver::Outcome outcome = driver::verify(run);
     return outcome.output.substr(0, outcome.output.find(':'));
@@ -250,6 +253,7 @@ TEST_CASE("a fragment without its checks takes what the dialog rejects") {
     text.replace(at, 7, ";");
   driver::VerifyOptions run = options("fusion");
   const TestFolder scratch("dotek-verify-targets");
+  run.allowEdits = true; // the cases alone are to show it
   run.translation = scratch.write("unchecked.js", text);
   run.cases = 200;
   const driver::Outcome outcome = driver::verify(run);
