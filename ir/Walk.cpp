@@ -151,16 +151,21 @@ void eachNode(const ConditionPtr& condition, const std::function<void(const Expr
 }
 
 std::optional<std::uint32_t> firstNumber(const ExpressionPtr& number) {
-  const auto whole = [](const ExpressionPtr& side) -> std::optional<std::uint32_t> {
-    const double* value = constantValue(side);
-    if (value == nullptr || *value < 0 || *value > 99999999) return std::nullopt;
-    return static_cast<std::uint32_t>(std::lround(*value));
-  };
   const auto* sum = std::get_if<Binary>(&number->node);
   if (sum == nullptr || sum->op != BinaryOp::Add) return std::nullopt;
-  if (const auto left = whole(sum->left)) return left;
-  if (const auto right = whole(sum->right)) return right;
-  return firstNumber(sum->left);
+  std::optional<double> out;
+  const auto add = [&](const auto& self, const ExpressionPtr& term) -> void {
+    const auto* inner = std::get_if<Binary>(&term->node);
+    if (inner != nullptr && inner->op == BinaryOp::Add) {
+      self(self, inner->left);
+      self(self, inner->right);
+    } else if (const double* value = constantValue(term)) {
+      out = out.value_or(0) + *value;
+    }
+  };
+  add(add, number);
+  if (!out || !(*out >= 0 && *out <= 99999999)) return std::nullopt;
+  return static_cast<std::uint32_t>(std::lround(*out));
 }
 
 } // namespace dotek::ir

@@ -42,6 +42,20 @@ std::optional<AxisSet> positionAxis(std::uint32_t variable) {
   return std::nullopt;
 }
 
+bool askedAlone(const NcProgram& nc, std::size_t store) {
+  const auto& body = nc.program.body;
+  const auto variable = storedNumber(body[store]);
+  bool asked = false;
+  for (std::size_t i = store + 1; variable && i < body.size() && i - store <= kMostAfter; ++i) {
+    bool reads = false;
+    eachRead(body[i], [&](std::uint32_t number, SourceRange) { reads = reads || number == *variable; });
+    if (reads && ir::conditionOf(body[i]) == nullptr) return false;
+    asked = asked || reads;
+    if (storedNumber(body[i]) == variable) break;
+  }
+  return asked;
+}
+
 bool mayAskControl(const ir::ProgramStatement& statement) {
   if (callOf(statement) != nullptr) return true;
   if (const auto* block = std::get_if<ir::NcBlock>(&statement.node))

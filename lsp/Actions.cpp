@@ -160,6 +160,7 @@ Json formatting(Workspace& workspace, const Json& params) {
                                                               : outcome.diagnostics.all().front().message};
   if (outcome.inputs.empty()) return Json::array(); // it is laid out
   const Index& index = workspace.index(document);
+  if (index.file == kNoFile) throw Refusal{kRequestFailed, "no text of a language that is laid out"};
   const SourceRange all{index.file, 0, static_cast<std::uint32_t>(index.text().bytes().size())};
   return Json::array(
       {{{"range", rangeOf(index.text(), all, workspace.units)}, {"newText", outcome.files.front().text}}});

@@ -50,10 +50,7 @@ bool namesVariable(const Control& control, std::uint32_t variable) {
   if (axes(v.blockEnd) || axes(v.machine) || axes(v.position) || axes(v.skip) || axes(v.toolLength))
     return true;
   return within(v.modalFirst, number, kGroups) || within(v.modalWords, number, kWords) ||
-         within(v.toolWear, number, v.toolCount + 1) || within(v.toolGeometry, number, v.toolCount + 1) ||
-         within(v.toolWearToo, number, v.toolCount + 1) ||
-         within(v.toolGeometryToo, number, v.toolCount + 1) ||
-         isOffset(v.externalX, number, v.axisStep, 0, 1) ||
+         isOfTools(control, variable) || isOffset(v.externalX, number, v.axisStep, 0, 1) ||
          isOffset(v.workOffsetX, number, v.axisStep, v.systemStep, 6) ||
          isOffset(v.extendedX, number, v.axisStep, v.extendedStep, v.extendedCount) ||
          control.isReadOnly(variable);
@@ -70,6 +67,13 @@ bool isReadAlone(const Control& control, std::uint32_t variable) {
     const bool isOne = (variable >= range.first && variable <= range.last) || range.word == variable;
     return isOne && (range.access == StateRange::Access::ReadOnly || range.null);
   });
+}
+
+bool isOfTools(const Control& control, std::uint32_t variable) {
+  const SystemVariables& v = control.variables;
+  const auto number = static_cast<long>(variable);
+  return within(v.toolWear, number, v.toolCount + 1) || within(v.toolGeometry, number, v.toolCount + 1) ||
+         within(v.toolWearToo, number, v.toolCount + 1) || within(v.toolGeometryToo, number, v.toolCount + 1);
 }
 
 } // namespace dotek::stdlib

@@ -13,4 +13,7 @@ bool namesVariable(const Control& control, std::uint32_t number);
 // A program that writes it stops with alarm 116: listed so, a state that is only read, or the tool offset 0.
 bool isReadAlone(const Control& control, std::uint32_t number);
 
+// An entry of a table of tools, or the number that its entries count from: #2000 of `#[2000+#7]`.
+bool isOfTools(const Control& control, std::uint32_t number);
+
 } // namespace dotek::stdlib

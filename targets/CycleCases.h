@@ -131,6 +131,7 @@ private:
   void takeRun(CaseResult& result, TargetRun ran, const Values& values) const;
   void noteProbe(CaseResult& result, const verify::Record& record, const Values& values) const;
   void comparePath(CaseResult& result, const Values& values) const;
+  bool movesItself(const Values& values) const;
   SourceRange sourceOf(SourceRange posted, const Values& values) const;
 
   const VerifyOptions& options_;

@@ -16,15 +16,39 @@ using View = std::string_view;
 struct Line {
   std::uint32_t number = 0; // from 1
   std::string text;         // without blanks at the ends
-  std::string key;          // without any blank
+  std::string key;          // without blanks outside of texts and comments, one for several inside
 };
 
 bool isBlank(char c) {
   return c == ' ' || c == '\t' || c == '\v' || c == '\f';
 }
 
+// A part of a post: round and curly brackets are no comments, quotes hold texts.
+bool isScript(View text) {
+  return text.find("function ") != View::npos;
+}
+
+std::string keyOf(View line, bool script) {
+  std::string out;
+  char inside = 0; // what ends the text or the comment
+  for (const char c : line) {
+    if (isBlank(c)) {
+      if (inside != 0 && out.back() != ' ') out += ' ';
+      continue;
+    }
+    if (inside == 0 && !script && c == '(')
+      inside = ')';
+    else if (inside == 0 && script && (c == '"' || c == '\''))
+      inside = c;
+    else if (c == inside)
+      inside = 0;
+    out += c;
+  }
+  return out;
+}
+
 // Without empty lines.
-std::vector<Line> linesOf(View text) {
+std::vector<Line> linesOf(View text, bool script) {
   std::vector<Line> out;
   std::uint32_t number = 0;
   for (std::size_t at = 0; at < text.size();) {
@@ -40,16 +64,17 @@ std::vector<Line> linesOf(View text) {
     Line& one = out.emplace_back();
     one.number = number;
     one.text = line;
-    std::copy_if(line.begin(), line.end(), std::back_inserter(one.key), [](char c) { return !isBlank(c); });
+    one.key = keyOf(line, script);
   }
   return out;
 }
 
 // Of all languages that convert writes.
-bool isComment(const Line& line) {
+bool isComment(const Line& line, bool script) {
   const View key = line.key;
   for (const View begin : {";", "//", "/*", "*", "!"})
     if (key.starts_with(begin)) return true;
+  if (script) return false;
   return (key.starts_with('(') && key.find(')') == key.size() - 1) ||
          (key.starts_with('{') && key.find('}') == key.size() - 1);
 }
@@ -69,11 +94,16 @@ View programNumber(const std::vector<Line>& lines) {
   return {};
 }
 
-// `O8000` of `O8000(TITLE)`, whose title does not run; "": another line.
-View title(const Line& line) {
-  const std::size_t digits = line.key.starts_with('O') ? digitsAt(line.key, 1) : 0;
-  const bool named = digits > 0 && View(line.key).substr(digits + 1).starts_with('(');
-  return named ? View(line.key).substr(0, digits + 1) : View();
+// What is before a comment at the end of the line: `O8000` of `O8000(TITLE)`; "": it has none.
+View beforeComment(const Line& line, bool script) {
+  const View key = line.key;
+  const std::size_t at = script ? key.find("//") : std::min(key.find('('), key.find(';'));
+  if (at == View::npos || at == 0) return {};
+  return key[at] == '(' && key.find(')') != key.size() - 1 ? View() : key.substr(0, at);
+}
+
+bool isTitle(View code) {
+  return code.size() > 1 && code.front() == 'O' && digitsAt(code, 1) == code.size() - 1;
 }
 
 // The program has another number, and so it is called: `O8000` and `P8000`.
@@ -89,17 +119,23 @@ void renumber(std::vector<Line>& lines, const std::string& from, View to) {
 } // namespace
 
 std::vector<EditedLine> editedLines(View converted, View edited) {
-  std::vector<Line> before = linesOf(converted);
-  const std::vector<Line> now = linesOf(edited);
+  const bool script = isScript(converted);
+  std::vector<Line> before = linesOf(converted, script);
+  const std::vector<Line> now = linesOf(edited, script);
   const std::string number{programNumber(before)};
   if (const View other = programNumber(now); !number.empty() && !other.empty() && other != number)
     renumber(before, number, other);
   const auto pairs =
       matchLines(static_cast<std::uint32_t>(before.size()), static_cast<std::uint32_t>(now.size()),
                  [&](std::uint32_t i, std::uint32_t j) { return before[i].key == now[j].key; });
-  if (!pairs || pairs->size() * 2 < before.size()) return {};
-  const bool keepsComments = std::any_of(pairs->begin(), pairs->end(),
-                                         [&](const auto& pair) { return isComment(now[pair.second]); });
+  const auto comment = [&](const Line* line) { return line == nullptr || isComment(*line, script); };
+  const bool keepsComments =
+      std::any_of(now.begin(), now.end(), [&](const Line& line) { return comment(&line); });
+  // The one with a comment at its end that the other does not have: added, or taken out with all others.
+  const auto sameCode = [&](const Line& was, const Line& is) {
+    const View code = beforeComment(was, script);
+    return beforeComment(is, script) == was.key || (!keepsComments && isTitle(code) && code == is.key);
+  };
 
   std::vector<EditedLine> out;
   const std::uint32_t last = now.empty() ? 1 : now.back().number;
@@ -108,25 +144,29 @@ std::vector<EditedLine> editedLines(View converted, View edited) {
   const auto upTo = [&](std::size_t endI, std::size_t endJ) {
     std::vector<const Line*> was, is;
     for (; i < endI; ++i)
-      if (keepsComments || !isComment(before[i])) was.push_back(&before[i]);
+      if (keepsComments || !comment(&before[i])) was.push_back(&before[i]);
     for (; j < endJ; ++j)
       is.push_back(&now[j]);
     for (auto at = is.begin(); at != is.end() && is.size() > was.size();)
-      at = isComment(**at) ? is.erase(at) : at + 1;
+      at = comment(*at) ? is.erase(at) : at + 1;
     for (std::size_t k = 0; k < std::max(was.size(), is.size()); ++k) {
+      const Line* const old = k < was.size() ? was[k] : nullptr;
+      const Line* const line = k < is.size() ? is[k] : nullptr;
+      const View code = old != nullptr ? beforeComment(*old, script) : View();
+      if (old != nullptr && line != nullptr && sameCode(*old, *line)) continue;
       EditedLine& one = out.emplace_back();
-      one.line = k < is.size() ? is[k]->number : endJ < now.size() ? now[endJ].number : last;
-      if (k < is.size()) one.now = is[k]->text;
-      if (k < was.size()) one.converted = was[k]->text;
-      one.comment = (k >= was.size() || isComment(*was[k])) && (k >= is.size() || isComment(*is[k]));
-      if (k < was.size() && k < is.size())
-        one.comment = one.comment || (!title(*was[k]).empty() && title(*was[k]) == title(*is[k]));
+      one.line = line != nullptr ? line->number : endJ < now.size() ? now[endJ].number : last;
+      if (line != nullptr) one.now = line->text;
+      if (old != nullptr) one.converted = old->text;
+      const bool title = line != nullptr && isTitle(code) && beforeComment(*line, script) == code;
+      one.comment = title || (comment(old) && comment(line));
     }
   };
-  for (const auto& [r, c] : *pairs) {
-    upTo(r, c);
-    ++i, ++j;
-  }
+  if (pairs)
+    for (const auto& [r, c] : *pairs) {
+      upTo(r, c);
+      ++i, ++j;
+    }
   upTo(before.size(), now.size());
   return out;
 }

@@ -15,9 +15,8 @@ struct EditedLine {
   bool comment = false;       // neither side is more than a comment
 };
 
-// In the order of the text. Blanks, another number of the program, comments that were added and, where none
-// of them is left, comments that were taken out are no edits. Empty where less than half of the lines are
-// those of `converted`: it is another program, whose lines say nothing.
+// In the order of the text. Blanks outside of texts, another number of the program, comments that were added
+// and, where none of them is left, comments that were taken out are no edits.
 std::vector<EditedLine> editedLines(std::string_view converted, std::string_view edited);
 
 } // namespace dotek::targets

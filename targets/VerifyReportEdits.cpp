@@ -31,7 +31,8 @@ void VerifyReport::tellEdits() {
   const auto lines =
       static_cast<std::size_t>(std::count(translation.converted.begin(), translation.converted.end(), '\n'));
   if (edits.size() > std::max(kMostTold, lines / kShare)) {
-    told_.report<diag::VerifyOtherText>({}, translation.name, edits.size());
+    Diagnostic& found = told_.report<diag::VerifyOtherText>({}, translation.name, edits.size());
+    if (options_.allowEdits) found.severity = Severity::Warning;
     return;
   }
   for (std::size_t i = 0; i < std::min(edits.size(), kMostTold); ++i) {

@@ -8,6 +8,7 @@
 #include "ir/Evaluate.h"
 #include "ir/Rewrite.h"
 #include "ir/Walk.h"
+#include "stdlib/VariableNumbers.h"
 #include "support/Decimal.h"
 #include "support/messages/Fanuc.h"
 
@@ -38,6 +39,18 @@ std::optional<std::uint32_t> wholeOf(const ir::ExpressionPtr& number) {
   return static_cast<std::uint32_t>(*value);
 }
 
+// `number` with the constant `from` of its sum as `to`; nullptr: it has no such term.
+ir::ExpressionPtr countedFrom(const ir::ExpressionPtr& number, std::uint32_t from, std::uint32_t to) {
+  if (const double* value = ir::constantValue(number))
+    return *value == from ? ir::constant(to, number->range) : nullptr;
+  const auto* sum = std::get_if<ir::Binary>(&number->node);
+  if (sum == nullptr || sum->op != ir::BinaryOp::Add) return nullptr;
+  if (const ir::ExpressionPtr left = countedFrom(sum->left, from, to))
+    return ir::binary(sum->op, left, sum->right, number->range);
+  const ir::ExpressionPtr right = countedFrom(sum->right, from, to);
+  return right ? ir::binary(sum->op, sum->left, right, number->range) : nullptr;
+}
+
 class Variables {
 public:
   explicit Variables(State& state) : state_(state) {}
@@ -61,8 +74,8 @@ private:
     const SourceRange range = expression->range.hasPlace() ? expression->range : range_;
     const auto number = wholeOf(machine->number);
     if (!number) {
-      computed(machine->number, range);
-      return expression;
+      const ir::ExpressionPtr there = computed(machine->number, range);
+      return there == machine->number ? expression : ir::machineVariable(there, expression->range);
     }
     if (*number <= state_.control.locals ||
         (same() && *number < kFirstSystem && !state_.control.isCommon(*number))) {
@@ -126,10 +139,34 @@ private:
     return !found->second[static_cast<std::size_t>(at_ - body.data())];
   }
 
-  void computed(const ir::ExpressionPtr& number, SourceRange range) {
+  // The number on the control that is written.
+  ir::ExpressionPtr computed(const ir::ExpressionPtr& number, SourceRange range) {
     const auto base = ir::firstNumber(number);
-    // Over the offsets of work systems, where they lie as on the source's control.
-    if (base && *base >= kFirstSystem && isSettable(state_.control, *base) && sameOffsets()) return;
+    const stdlib::Control& source = state_.options.sourceControl;
+    if (base && stdlib::isOfTools(source, *base)) return ofTools(number, *base, range);
+    // Over the offsets of work systems, where they lie as on the source's control: `#[5201+20*#1]`, and
+    // `#[5200+20*#1+#2]` with the axis as a number.
+    if (base && *base >= kFirstSystem && sameOffsets() &&
+        (isSettable(state_.control, *base) || isSettable(state_.control, *base + 1)))
+      return number;
+    refuseComputed(base, range);
+    return number;
+  }
+
+  ir::ExpressionPtr ofTools(const ir::ExpressionPtr& number, std::uint32_t base, SourceRange range) {
+    const VariableThere there = variableThere(base + 1, state_.options.sourceControl, state_.control);
+    if (!there.number) {
+      refuseElsewhere(base, range, there.why);
+      return number;
+    }
+    if (*there.number == base + 1) return number;
+    if (const ir::ExpressionPtr moved = countedFrom(number, base, *there.number - 1)) return moved;
+    state_.refuse<diag::VariableNumberComputed>(range, state_.control.title,
+                                                state_.options.sourceControl.title);
+    return number;
+  }
+
+  void refuseComputed(std::optional<std::uint32_t> base, SourceRange range) {
     if (base && state_.options.sourceControl.isCommon(*base) && !state_.control.isCommon(*base))
       refuseElsewhere(*base, range, variableThere(*base, state_.options.sourceControl, state_.control).why);
     else if (!base || *base <= state_.control.locals || !state_.control.isCommon(*base))
@@ -148,7 +185,10 @@ private:
 
   void stored(ir::Store& store) {
     const auto number = wholeOf(store.number);
-    if (!number) return computed(store.number, range_);
+    if (!number) {
+      store.number = computed(store.number, range_);
+      return;
+    }
     if (*number < kFirstSystem) { // Flow.cpp looks at the common ones
       if (const auto there = packaged(*number)) store.number = ir::constant(*there, store.number->range);
       return;
@@ -191,7 +231,8 @@ ir::Environment follows(const ir::Cycle& cycle, ir::VariableId input, double val
 // Each value of the list of one field, which the program's checks confine it to, makes it 1 to 6.
 bool isSystemByList(const State& state, const ir::Expression& number) {
   return std::any_of(state.options.choices.begin(), state.options.choices.end(), [&](const auto& list) {
-    const auto& [input, choices] = list;
+    const ir::VariableId input = list.first; // a binding cannot be captured by clang 14
+    const std::vector<Choice>& choices = list.second;
     return !choices.empty() && std::all_of(choices.begin(), choices.end(), [&](const Choice& choice) {
       const ir::Scalar there = ir::evaluate(number, follows(state.cycle, input, choice.value));
       return there.known() && isSystem(there.value);

@@ -164,7 +164,8 @@ private:
     const bool whole = value != nullptr && *value >= 0 && *value < 1e9 &&
                        *value == static_cast<double>(static_cast<std::uint32_t>(*value));
     const auto base = value == nullptr ? ir::firstNumber(number) : std::nullopt;
-    if (base && (state_.control.isCommon(*base) || isSettable(state_.control, *base))) {
+    if (base && (state_.control.isCommon(*base) || isSettable(state_.control, *base) ||
+                 isSettable(state_.control, *base + 1))) {
       warnOfReach(*base, origin);
       return machineText(state_, number, origin);
     }

@@ -211,7 +211,7 @@ std::string variableRanges(const Control& control) {
 }
 
 bool sharesVariablesFrom(std::uint32_t first, const Control& to, const Control& from) {
-  constexpr std::uint32_t kEnough = 50;
+  constexpr std::uint32_t kEnough = 30; // more than a row of holes has
   std::uint32_t shared = 0;
   while (shared < kEnough && keptOf(from, first + shared) && first + shared > from.locals &&
          keptOf(from, first + shared) == keptOf(to, first + shared))
@@ -249,8 +249,9 @@ const StateRange* stateOf(const Control& control, std::uint32_t number) {
 VariableThere variableThere(std::uint32_t number, const Control& from, const Control& to) {
   if (number == 0 || (from.name == to.name && from.origin == to.origin)) return {number, "", ""};
   if (number < kFirstSystem) return plainVariable(number, from, to);
-  if (keptOf(from, number) || keptOf(to, number)) return plainVariable(number, from, to);
   const std::optional<Meaning> meaning = meaningOf(from, number);
+  // A number that means something here may be one of the user's there.
+  if (keptOf(from, number) || (keptOf(to, number) && !meaning)) return plainVariable(number, from, to);
   if (const StateRange* state = meaning ? nullptr : stateOf(from, number))
     for (const StateRange& other : to.state)
       if (other.title == state->title && other.last - other.first == state->last - state->first)

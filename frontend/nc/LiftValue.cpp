@@ -1,6 +1,7 @@
 // Numbers of words: decimal points, pictures, formulas.
 #include "frontend/nc/Lifter.h"
 #include "ir/Walk.h"
+#include "stdlib/VariableNumbers.h"
 #include "support/Decimal.h"
 #include "support/messages/ComPost.h"
 #include "support/messages/Nc.h"
@@ -309,10 +310,13 @@ bool Lifter::isComputed(const Expression& number) {
 ir::ExpressionPtr Lifter::computedNumber(const Expression& number) {
   const ir::ExpressionPtr out = formula(number, false);
   if (!out) return nullptr;
-  // From a common variable on, or over the offsets of work systems (`#[5201+20*#1]`): it reaches no local,
-  // which would be another program's.
+  // From a common variable on, over the offsets of work systems (`#[5201+20*#1]`, `#[5200+20*#1+#2]` with the
+  // axis as a number) or of tools: it reaches no local, which would be another program's.
   const auto first = ir::firstNumber(out);
-  if (first && (context_.control.isCommon(*first) || isOffset(context_.control, *first))) return out;
+  const stdlib::Control& control = context_.control;
+  if (first && (control.isCommon(*first) || isOffset(control, *first) || isOffset(control, *first + 1) ||
+                stdlib::isOfTools(control, *first)))
+    return out;
   refuse<diag::ComputedVariable>(number.range);
   return nullptr;
 }

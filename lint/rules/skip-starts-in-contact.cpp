@@ -59,7 +59,8 @@ void check(const NcProgram& nc, Report& report) {
           if (axesOf(*block) != 0) return Contact::Free;
         if (state != Contact::Skipped) return state;
         eachRead(body[at], [&](std::uint32_t number, SourceRange) {
-          if (contactAxis(number) && std::holds_alternative<ir::Store>(body[at].node)) state = Contact::Used;
+          if (contactAxis(number) && std::holds_alternative<ir::Store>(body[at].node) && !askedAlone(nc, at))
+            state = Contact::Used;
         });
         return state;
       },

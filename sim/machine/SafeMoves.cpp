@@ -231,6 +231,30 @@ private:
   std::map<std::uint64_t, Copy> now_;
 };
 
+// A store whose variable conditions alone read, up to the next store into it: `#651=#5063-#5083`, and
+// `IF[#651 GT 2.]GOTO 800`. The first of these conditions; nothing: the value is kept.
+std::optional<std::size_t> askedAlone(const std::vector<ir::ProgramStatement>& body, std::size_t store) {
+  const auto* kept = std::get_if<ir::Store>(&body[store].node);
+  const auto key =
+      kept == nullptr || ir::constantValue(kept->number) == nullptr ? std::nullopt : keyOf(kept->number);
+  if (!key) return std::nullopt;
+  constexpr std::size_t kFar = 4000; // statements; farther away a value that is not kept is not looked for
+  std::optional<std::size_t> out;
+  for (std::size_t i = store + 1; i < body.size(); ++i) {
+    if (i - store > kFar) return std::nullopt;
+    bool reads = false;
+    ir::eachNode(body[i], [&](const ir::Expression& node) {
+      const auto* variable = std::get_if<ir::MachineVariable>(&node.node);
+      reads = reads || (variable != nullptr && keyOf(variable->number) == key);
+    });
+    if (reads && questionAt(body, i) == nullptr) return std::nullopt;
+    if (reads && !out) out = i;
+    const auto* next = std::get_if<ir::Store>(&body[i].node);
+    if (next != nullptr && keyOf(next->number) == key) break;
+  }
+  return out;
+}
+
 } // namespace
 
 BlockSet safeMoves(const std::vector<const ir::Program*>& programs, const stdlib::Control& control) {
@@ -238,6 +262,11 @@ BlockSet safeMoves(const std::vector<const ir::Program*>& programs, const stdlib
   for (const ir::Program* program : programs) {
     const auto& body = program->body;
     std::set<std::size_t> watched;
+    const auto skipBetween = [&](std::size_t from, std::size_t to) {
+      for (std::size_t i = from; i < to; ++i)
+        if (does(body[i], stdlib::Function::Skip, control)) return true;
+      return false;
+    };
     for (std::size_t at = 0; at < body.size(); ++at) {
       if (!does(body[at], stdlib::Function::Skip, control)) continue;
       const auto axes = axesOf(body[at]);
@@ -245,8 +274,11 @@ BlockSet safeMoves(const std::vector<const ir::Program*>& programs, const stdlib
       for (std::size_t i = at + 1; i < body.size() && !kept; ++i) {
         if (does(body[i], stdlib::Function::Skip, control)) break;
         const Ended read = endsRead(body[i]);
-        if (read.skip || (!moved && (read.places & axes).any()))
-          (questionAt(body, i) != nullptr ? compared : kept) = true;
+        if (read.skip || (!moved && (read.places & axes).any())) {
+          const std::optional<std::size_t> asked = askedAlone(body, i);
+          const bool asks = questionAt(body, i) != nullptr || (asked && !skipBetween(i, *asked));
+          (asks ? compared : kept) = true;
+        }
         moved = moved || mayMove(body[i]);
       }
       if (compared && !kept) watched.insert(at);

@@ -362,22 +362,32 @@ private:
     if (!facts_[skip]) return false;
     bool wants = false;
     for (std::size_t at = skip + 1; at < body_.size() && !isSkip(at); ++at) {
-      const std::optional<bool> alarm = readsEnd(body_[at]) ? alarmsAtEnd(skip, at) : std::nullopt;
+      const std::optional<bool> alarm = readsEnd(at, skip) ? alarmsAtEnd(skip, at) : std::nullopt;
       if (alarm == false) return false;
       wants = wants || alarm == true;
     }
     return wants;
   }
-  static bool readsEnd(const ir::ProgramStatement& statement) {
-    const ir::ConditionPtr* condition = ir::conditionOf(statement);
+  // A condition on where the move has ended, or on a variable that was computed from that.
+  bool readsEnd(std::size_t at, std::size_t skip) const {
+    const ir::ConditionPtr* condition = ir::conditionOf(body_[at]);
     if (condition == nullptr || !*condition) return false;
     bool out = false;
     ir::eachNode(*condition, [&](const ir::Expression& node) {
       const auto* use = std::get_if<ir::MachineVariable>(&node.node);
       const double* number = use == nullptr ? nullptr : ir::constantValue(use->number);
-      out = out || (number != nullptr && *number >= kBlockEnd && *number <= kSkip + 2);
+      if (number == nullptr || !(*number >= 1 && *number < 1e6)) return;
+      out = out || (*number >= kBlockEnd && *number <= kSkip + 2) ||
+            (facts_[at] && holdsEnd(facts_[at]->variable(static_cast<std::uint32_t>(*number)), skip));
     });
     return out;
+  }
+  static bool holdsEnd(const ir::LinearForm& form, std::size_t skip) {
+    return std::any_of(form.terms.begin(), form.terms.end(), [&](const auto& term) {
+      for (std::size_t axis = 0; axis < kAxes.size(); ++axis)
+        if (term.first == endOf(skip, axis)) return true;
+      return false;
+    });
   }
 
   // The one axis that a block moves; nothing: none, or another one, too.

@@ -48,10 +48,34 @@ TEST_CASE("edited lines: what a shop changes without changing the program is no 
   for (std::size_t at = 0; (at = lines.find('\n', at)) != std::string::npos; at += 2)
     lines.replace(at, 1, "\r\n");
   CHECK(edits(kProgram, lines).empty());
+  CHECK(edits(kProgram, replaced(kProgram, "#101=#5061", "#101=#5061 (THE EDGE)")).empty());
   // All comments but those of alarms are taken out.
-  CHECK(edits(kProgram, replaced(kProgram, "(WEB)\n(X  NOMINAL, MM)\n(G65 P8000 X1.)\n", "\n")) ==
-        "2 O8000 < O8000(WEB)\n");
+  CHECK(edits(kProgram, replaced(kProgram, "(WEB)\n(X  NOMINAL, MM)\n(G65 P8000 X1.)\n", "\n")).empty());
   CHECK(edits(kProgram, replaced(kProgram, "(X  NOMINAL, MM)\n(G65 P8000 X1.)\n", "")).empty());
+}
+
+TEST_CASE("edited lines: a comment that is changed, and blanks in a text, are edits") {
+  CHECK(edits(kProgram, replaced(kProgram, "O8000(WEB)", "O8000")) == "2 O8000 < O8000(WEB)\n");
+  CHECK(edits(kProgram, replaced(kProgram, "(WEB)", "(BOSS)")) == "2c O8000(BOSS) < O8000(WEB)\n");
+  CHECK(edits(kProgram, replaced(kProgram, "(TOO FAR)", "(TOOFAR)")) ==
+        "11 N92#3000=92(TOOFAR) < N92#3000=92(TOO FAR)\n");
+}
+
+TEST_CASE("edited lines: a header that is written anew is edited line by line") {
+  CHECK(edits(kProgram, replaced(kProgram, "(X  NOMINAL, MM)\n(G65 P8000 X1.)\n",
+                                 "(x  nominal, in)\n(g65 p8000 x1.)\n")) ==
+        "3c (x  nominal, in) < (X  NOMINAL, MM)\n4c (g65 p8000 x1.) < (G65 P8000 X1.)\n");
+}
+
+TEST_CASE("edited lines: a part of a post has other comments") {
+  const std::string script =
+      "// WEB\nvar list = [\n  {title: \"G58\", id: \"58\"},\n  {title: \"G59\", id: \"59\"}\n];\n"
+      "function onCycle() {\n  (a)(b);\n}\n";
+  CHECK(edits(script, replaced(script, "// WEB\n", "")).empty());
+  CHECK(edits(script, replaced(script, "var list = [", "var list=[ // systems")).empty());
+  CHECK(edits(script, replaced(script, "\"59\"", "\"5 9\"")) ==
+        "4 {title: \"G59\", id: \"5 9\"} < {title: \"G59\", id: \"59\"}\n");
+  CHECK(edits(script, replaced(script, "];\n", "];\n{ list.pop(); }\n")) == "6 { list.pop(); } < \n");
 }
 
 TEST_CASE("edited lines: an added comment beside a changed block is passed over") {
@@ -59,7 +83,7 @@ TEST_CASE("edited lines: an added comment beside a changed block is passed over"
         "8 IF[#5GE3]GOTO92 < IF[#5GT3]GOTO92\n");
 }
 
-TEST_CASE("edited lines: another program has no edits") {
-  CHECK(edits(kProgram, "O1\nG0 X1.\nG1 Z-5. F100\nM30\n").empty());
-  CHECK(edits(kProgram, "").empty());
+TEST_CASE("edited lines: of another program all lines are") {
+  CHECK(edits("G0 X1.\nM99\n", "G0 X2.\nM30\n") == "1 G0 X2. < G0 X1.\n2 M30 < M99\n");
+  CHECK(edits("M99\n", "") == "1  < M99\n");
 }

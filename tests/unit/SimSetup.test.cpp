@@ -380,8 +380,10 @@ TEST_CASE("setup: a skip move to a position may meet nothing, one that measures 
   const std::string flagged =
       macro("#28=0\nIF[ABS[#5063-#5083-#26] GT 0.01]THEN #28=1\nIF[#28 EQ 1]GOTO90\n", touch);
   CHECK(flagged.find("probe-miss") == std::string::npos);
+  // A variable that conditions alone read is no other question.
+  CHECK(macro("#5=#5063\nIF[ABS[#5-#5083-#26] GT 0.01]GOTO90\n", touch).find(">PASS<") != std::string::npos);
   // Kept, so it was to measure; and read by nobody.
-  CHECK(macro("#5=#5063\nIF[ABS[#5-#5083-#26] GT 0.01]GOTO90\n", touch).find("PASS, WITH MISSES") !=
+  CHECK(macro("#5=#5063\nIF[ABS[#5-#5083-#26] GT 0.01]GOTO90\n#102=#5\n", touch).find("PASS, WITH MISSES") !=
         std::string::npos);
   CHECK(macro("", touch).find("[probe-miss]") != std::string::npos);
   // The measuring one finds nothing: an alarm of the macro.
