@@ -23,12 +23,17 @@ bool isBlank(char c) {
   return c == ' ' || c == '\t' || c == '\v' || c == '\f';
 }
 
-// A part of a post: round and curly brackets are no comments, quotes hold texts.
-bool isScript(View text) {
-  return text.find("function ") != View::npos;
+// What comments and texts are in, which the languages that convert writes differ in.
+struct Style {
+  bool program = false; // of a control: comments in round brackets
+  bool script = false;  // a part of a post: no brackets are comments, quotes hold texts
+};
+Style styleOf(View text) {
+  const bool program = !text.empty() && View("%O:(").find(text.front()) != View::npos;
+  return {program, text.find("function ") != View::npos};
 }
 
-std::string keyOf(View line, bool script) {
+std::string keyOf(View line, const Style& style) {
   std::string out;
   char inside = 0; // what ends the text or the comment
   for (const char c : line) {
@@ -36,9 +41,9 @@ std::string keyOf(View line, bool script) {
       if (inside != 0 && out.back() != ' ') out += ' ';
       continue;
     }
-    if (inside == 0 && !script && c == '(')
+    if (inside == 0 && style.program && c == '(')
       inside = ')';
-    else if (inside == 0 && script && (c == '"' || c == '\''))
+    else if (inside == 0 && style.script && (c == '"' || c == '\''))
       inside = c;
     else if (c == inside)
       inside = 0;
@@ -48,7 +53,7 @@ std::string keyOf(View line, bool script) {
 }
 
 // Without empty lines.
-std::vector<Line> linesOf(View text, bool script) {
+std::vector<Line> linesOf(View text, const Style& style) {
   std::vector<Line> out;
   std::uint32_t number = 0;
   for (std::size_t at = 0; at < text.size();) {
@@ -64,19 +69,19 @@ std::vector<Line> linesOf(View text, bool script) {
     Line& one = out.emplace_back();
     one.number = number;
     one.text = line;
-    one.key = keyOf(line, script);
+    one.key = keyOf(line, style);
   }
   return out;
 }
 
 // Of all languages that convert writes.
-bool isComment(const Line& line, bool script) {
+bool isComment(const Line& line, const Style& style) {
   const View key = line.key;
   for (const View begin : {";", "//", "/*", "*", "!"})
     if (key.starts_with(begin)) return true;
-  if (script) return false;
-  return (key.starts_with('(') && key.find(')') == key.size() - 1) ||
-         (key.starts_with('{') && key.find('}') == key.size() - 1);
+  if (style.script) return false;
+  const char open = style.program ? '(' : '{', close = style.program ? ')' : '}';
+  return key.starts_with(open) && key.find(close) == key.size() - 1;
 }
 
 std::size_t digitsAt(View text, std::size_t at) {
@@ -95,9 +100,10 @@ View programNumber(const std::vector<Line>& lines) {
 }
 
 // What is before a comment at the end of the line: `O8000` of `O8000(TITLE)`; "": it has none.
-View beforeComment(const Line& line, bool script) {
+View beforeComment(const Line& line, const Style& style) {
   const View key = line.key;
-  const std::size_t at = script ? key.find("//") : std::min(key.find('('), key.find(';'));
+  const std::size_t at =
+      style.program ? std::min(key.find('('), key.find(';')) : key.find(style.script ? "//" : ";");
   if (at == View::npos || at == 0) return {};
   return key[at] == '(' && key.find(')') != key.size() - 1 ? View() : key.substr(0, at);
 }
@@ -119,22 +125,22 @@ void renumber(std::vector<Line>& lines, const std::string& from, View to) {
 } // namespace
 
 std::vector<EditedLine> editedLines(View converted, View edited) {
-  const bool script = isScript(converted);
-  std::vector<Line> before = linesOf(converted, script);
-  const std::vector<Line> now = linesOf(edited, script);
+  const Style style = styleOf(converted);
+  std::vector<Line> before = linesOf(converted, style);
+  const std::vector<Line> now = linesOf(edited, style);
   const std::string number{programNumber(before)};
   if (const View other = programNumber(now); !number.empty() && !other.empty() && other != number)
     renumber(before, number, other);
   const auto pairs =
       matchLines(static_cast<std::uint32_t>(before.size()), static_cast<std::uint32_t>(now.size()),
                  [&](std::uint32_t i, std::uint32_t j) { return before[i].key == now[j].key; });
-  const auto comment = [&](const Line* line) { return line == nullptr || isComment(*line, script); };
+  const auto comment = [&](const Line* line) { return line == nullptr || isComment(*line, style); };
   const bool keepsComments =
       std::any_of(now.begin(), now.end(), [&](const Line& line) { return comment(&line); });
   // The one with a comment at its end that the other does not have: added, or taken out with all others.
   const auto sameCode = [&](const Line& was, const Line& is) {
-    const View code = beforeComment(was, script);
-    return beforeComment(is, script) == was.key || (!keepsComments && isTitle(code) && code == is.key);
+    const View code = beforeComment(was, style);
+    return beforeComment(is, style) == was.key || (!keepsComments && isTitle(code) && code == is.key);
   };
 
   std::vector<EditedLine> out;
@@ -152,13 +158,13 @@ std::vector<EditedLine> editedLines(View converted, View edited) {
     for (std::size_t k = 0; k < std::max(was.size(), is.size()); ++k) {
       const Line* const old = k < was.size() ? was[k] : nullptr;
       const Line* const line = k < is.size() ? is[k] : nullptr;
-      const View code = old != nullptr ? beforeComment(*old, script) : View();
+      const View code = old != nullptr ? beforeComment(*old, style) : View();
       if (old != nullptr && line != nullptr && sameCode(*old, *line)) continue;
       EditedLine& one = out.emplace_back();
       one.line = line != nullptr ? line->number : endJ < now.size() ? now[endJ].number : last;
       if (line != nullptr) one.now = line->text;
       if (old != nullptr) one.converted = old->text;
-      const bool title = line != nullptr && isTitle(code) && beforeComment(*line, script) == code;
+      const bool title = line != nullptr && isTitle(code) && beforeComment(*line, style) == code;
       one.comment = title || (comment(old) && comment(line));
     }
   };

@@ -78,6 +78,12 @@ TEST_CASE("edited lines: a part of a post has other comments") {
   CHECK(edits(script, replaced(script, "];\n", "];\n{ list.pop(); }\n")) == "6 { list.pop(); } < \n");
 }
 
+TEST_CASE("edited lines: in a cycle and in a branch round brackets are code") {
+  CHECK(edits("cycle web\nway = reach\n", "cycle web\nway = reach(2)\n") ==
+        "2 way = reach(2) < way = reach\n");
+  CHECK(edits("probe:\n SeqC ' M5' EOL\n", "probe:\n{ OFF }\n SeqC ' M5' EOL\n").empty());
+}
+
 TEST_CASE("edited lines: an added comment beside a changed block is passed over") {
   CHECK(edits(kProgram, replaced(kProgram, "IF[#5GT3]", "(WAS GT)\nIF[#5GE3]")) ==
         "8 IF[#5GE3]GOTO92 < IF[#5GT3]GOTO92\n");
