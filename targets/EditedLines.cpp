@@ -153,8 +153,8 @@ std::vector<EditedLine> editedLines(View converted, View edited) {
       if (keepsComments || !comment(&before[i])) was.push_back(&before[i]);
     for (; j < endJ; ++j)
       is.push_back(&now[j]);
-    for (auto at = is.begin(); at != is.end() && is.size() > was.size();)
-      at = comment(*at) ? is.erase(at) : at + 1;
+    std::size_t added = is.size() - std::min(is.size(), was.size());
+    std::erase_if(is, [&](const Line* line) { return added > 0 && comment(line) && added-- > 0; });
     for (std::size_t k = 0; k < std::max(was.size(), is.size()); ++k) {
       const Line* const old = k < was.size() ? was[k] : nullptr;
       const Line* const line = k < is.size() ? is[k] : nullptr;
