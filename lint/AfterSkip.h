@@ -17,8 +17,8 @@ std::optional<std::vector<std::size_t>> afterSkip(const NcProgram& nc, std::size
 // #5001 to #5003, #5021 to #5023, #5041 to #5043 and #5061 to #5063: the axis of a position.
 std::optional<AxisSet> positionAxis(std::uint32_t variable);
 
-// The variable that this statement sets is read by conditions alone until it is set again: what a program asks
-// of a watched move by `#651=#5063-#5083` and `IF[#651 GT 2.]GOTO 800`.
+// The variable that this statement sets is read by conditions alone until it is set again: what a program
+// asks of a watched move by `#651=#5063-#5083` and `IF[#651 GT 2.]GOTO 800`.
 bool askedAlone(const NcProgram& nc, std::size_t store);
 
 // A condition that looks at a position or another variable of the control, M78 or M79 (an alarm of some

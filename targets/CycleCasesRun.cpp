@@ -325,8 +325,8 @@ double CaseRunner::pathTolerance(const Values& values) const {
   return std::max(options_.tolerance, values.rounding);
 }
 
-// The source sets the very system in which it goes on, which the case has put in force: its path moves by what
-// it has found, and a rehearsal finds each surface at the end of its travel.
+// The source sets the very system in which it goes on, which the case has put in force: its path moves by
+// what it has found, and a rehearsal finds each surface at the end of its travel.
 bool CaseRunner::movesItself(const Values& values) const {
   const std::string system = fmt::format("G{} ", values.drawn.system);
   const auto& writes = values.rehearsal->offsetWrites;

@@ -85,7 +85,7 @@ struct VerifyOptions : TranslationOptions {
   NamedTexts variables;      // --var N=VALUE, of programs: not drawn
   bool oneOfSeveral = false; // what --set and --field name may be of another input
   bool byConvert = false;    // what the report names as its command is `convert --verify`
-  bool allowEdits = false; // lines of it that no case tells from what convert writes are warnings
+  bool allowEdits = false;   // lines of it that no case tells from what convert writes are warnings
   // Of what convert writes: --default, --defaults use, --probe-power macro, --arg.
   bool switchProbe = false;
   NamedTexts defaults;
