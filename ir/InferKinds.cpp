@@ -3,6 +3,7 @@
 #include "ir/Kinds.h"
 #include "ir/Walk.h"
 
+#include <algorithm>
 #include <deque>
 #include <utility>
 
@@ -14,6 +15,9 @@ struct Group {
   std::vector<VariableId> variables;
   Kind kind = Kind::Number;
   bool index = false; // chooses a variable of the machine: whole, unless something else is known of it
+  // Of the variables those that stand in a sum with a number which makes none of G54 to G59 of them: pallet +
+  // 100.
+  std::vector<VariableId> shifted;
 };
 
 class Inference {
@@ -82,7 +86,10 @@ private:
   void spread(const Group& group) {
     for (const VariableId id : group.variables) {
       if (id >= cycle_.variables.size() || !isOpen(cycle_.variables[id].kind, group.kind)) continue;
-      cycle_.variables[id].kind = group.kind;
+      const bool counts = group.kind == Kind::WorkOffset &&
+                          std::find(group.shifted.begin(), group.shifted.end(), id) != group.shifted.end();
+      cycle_.variables[id].kind = counts ? Kind::Count : group.kind;
+      if (counts) continue;
       for (const std::size_t other : groupsOf_[id]) {
         if (!isOpen(groups_[other].kind, group.kind)) continue;
         groups_[other].kind = group.kind;
@@ -173,8 +180,13 @@ private:
 
   void collectBinary(const Binary& node, Group& group) {
     if (addsKinds(node.op)) {
+      const std::size_t first = group.variables.size();
       collect(node.left, group);
       collect(node.right, group);
+      if (isShiftedCount(node))
+        group.shifted.insert(group.shifted.end(),
+                             group.variables.begin() + static_cast<std::ptrdiff_t>(first),
+                             group.variables.end());
       return;
     }
     if (node.op == BinaryOp::Direction) {

@@ -126,6 +126,14 @@ bool addsKinds(BinaryOp op) {
   return false;
 }
 
+bool isShiftedCount(const Binary& sum) {
+  constexpr double kFirstBeyond = 100;
+  if (sum.op != BinaryOp::Add) return false;
+  const double* shift = constantValue(sum.right);
+  if (shift == nullptr) shift = constantValue(sum.left);
+  return shift != nullptr && *shift >= kFirstBeyond;
+}
+
 void eachRequirement(const CycleStatement& statement,
                      const std::function<void(const ExpressionPtr&, Kind)>& visit) {
   const auto require = [&](const ExpressionPtr& value, Kind kind) {
@@ -204,6 +212,7 @@ Kind kindOf(const ExpressionPtr& expression, const Cycle& cycle, const Mixed& mi
         if (alike && left != right && left != Kind::Number && right != Kind::Number)
           mixed(*expression, left, right);
         if (node.op == BinaryOp::Direction) return Kind::Angle;
+        if ((left == Kind::Count || right == Kind::Count) && isShiftedCount(node)) return Kind::Number;
         return !addsKinds(node.op) ? Kind::Number : left == Kind::Number ? right : left;
       },
       [](const OneOf<Constant, NullValue, MeasuredResult> auto&) { return Kind::Number; });

@@ -17,6 +17,9 @@ Kind resultKind(UnaryOp op);
 Kind resultKind(ResultName name);
 // Both sides and the result are of one kind.
 bool addsKinds(BinaryOp op);
+// A sum with a number that makes none of G54 to G59 of the rest, as 100 + pallet in a set where 101 is G54.1
+// P1: what is added to it counts.
+bool isShiftedCount(const Binary& sum);
 
 // The expressions of the statement that have to be of a kind.
 void eachRequirement(const CycleStatement& statement,

@@ -21,6 +21,7 @@
 #include "targets/DialogChoices.h"
 #include "targets/NominalFields.h"
 #include "targets/ReadBack.h"
+#include "targets/SelectedSystems.h"
 #include "targets/Stage.h"
 #include "targets/Target.h"
 #include "targets/Verification.h"
@@ -71,42 +72,6 @@ std::set<std::uint32_t> storesOf(const std::vector<ir::Program>& programs,
                base && *base >= kFirst && *base < kEnd)
         near(*base);
     }
-  }
-  return out;
-}
-
-// What a posted program selects by itself: the first tool offset, and the work system before it moves in one.
-struct Selected {
-  std::optional<std::uint32_t> system, toolOffset;
-};
-
-Selected selectedIn(const ir::Program& program, const stdlib::Control& control) {
-  using stdlib::Function;
-  Selected out;
-  bool moved = false;
-  for (const ir::ProgramStatement& statement : program.body) {
-    moved = moved || std::holds_alternative<ir::Call>(statement.node);
-    const auto* block = std::get_if<ir::NcBlock>(&statement.node);
-    if (block == nullptr) continue;
-    bool axes = false, elsewhere = false, length = false; // elsewhere: no move in a work system
-    for (const ir::Word& word : block->words) {
-      axes = axes || (word.address >= 'X' && word.address <= 'Z');
-      const double* code = word.address == 'G' ? ir::constantValue(word.value) : nullptr;
-      if (code == nullptr || *code < 0 || *code > 9999) continue;
-      const auto tenths = static_cast<std::uint32_t>(std::lround(*code * 10));
-      const stdlib::CodeInfo* info = control.find('G', tenths);
-      const Function function = info == nullptr ? Function::Other : info->function;
-      elsewhere = elsewhere || function == Function::DataInput || function == Function::ReferenceReturn ||
-                  function == Function::SecondReferenceReturn || function == Function::MachineCoordinates;
-      length = length || function == Function::ToolLengthPlus;
-      if (function == Function::WorkSystem && !moved) out.system = tenths / 10;
-    }
-    for (const ir::Word& word : block->words) {
-      const double* number = word.address == 'H' ? ir::constantValue(word.value) : nullptr;
-      if (length && !out.toolOffset && number != nullptr && *number >= 1 && *number <= 9999)
-        out.toolOffset = static_cast<std::uint32_t>(std::lround(*number));
-    }
-    moved = moved || (axes && !elsewhere);
   }
   return out;
 }
@@ -163,6 +128,9 @@ bool CaseRunner::prepare() {
   draws_.emplace(std::move(near), std::move(hosts), plan_.fixedHosts, options_.seed, plan_.bounds,
                  options_.cases);
   sourceSet_ = session_.macroSet(plan_.sourceMacros, &*inputs_->sourceControl);
+  if (sourceSet_ != nullptr)
+    for (const auto intent : {stdlib::Intent::ProbeOn, stdlib::Intent::ProbeOff})
+      if (const auto* signature = sourceSet_->find(intent)) switches_.insert(signature->program);
   variables_ = variablesOf(options_.variables, session_.diagnostics());
   if (session_.diagnostics().hasErrors()) return false;
   std::vector<const stdlib::MacroSet*> sets;
@@ -290,7 +258,7 @@ void CaseRunner::takeSelected(verify::Case& drawn, bool others) {
   const auto selected = [&](const verify::Case& one) -> std::optional<Selected> {
     const std::unique_ptr<Values> values = check(one, false);
     if (!values || values->rejected || !readPosted(*values)) return std::nullopt;
-    return selectedIn(values->posted->file.programs.front(), *inputs_->sourceControl);
+    return selectedIn(values->posted->file.programs.front(), *inputs_->sourceControl, switches_);
   };
   const std::optional<Selected> found = selected(drawn);
   if (!found) return;
@@ -363,7 +331,8 @@ std::unique_ptr<CaseRunner::Values> CaseRunner::attemptAsIs(const verify::Case& 
   drawVariables(*values);
   if (selects_ == false) {
     // Only some values make the post select something.
-    const Selected found = selectedIn(values->posted->file.programs.front(), *inputs_->sourceControl);
+    const Selected found =
+        selectedIn(values->posted->file.programs.front(), *inputs_->sourceControl, switches_);
     if (found.system || found.toolOffset) {
       selects_ = true;
       return attemptAsIs(proposal);

@@ -157,6 +157,8 @@ private:
   std::uint32_t tries_ = 0;       // proposals of the last draw() or another()
   std::uint32_t others_ = 0;      // cases that another() has drawn for the last draw()
   std::vector<std::pair<std::uint32_t, double>> variables_; // of --var
+  std::set<std::uint32_t>
+      switches_; // macros of the source's control that switch the probe and do nothing else
   std::map<std::string, bool> moving_; // fields of which Questions knows whether they move something
 
   const stdlib::MacroSet* sourceSet_ = nullptr;

@@ -1,4 +1,5 @@
 // Common variables that a posted program reads and never writes: a value of the shop, the same on both sides.
+#include "ir/Match.h"
 #include "ir/Walk.h"
 #include "targets/CycleCasesParts.h"
 #include "targets/Target.h"
@@ -7,33 +8,82 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <functional>
+#include <map>
 
 namespace dotek::targets {
 
 namespace {
 
-constexpr double kFirst = 100, kEnd = 1000; // common variables
+constexpr double kFirst = 100, kFirstKept = 500, kEnd = 1000; // common variables
 // Cases that come to nothing, until the variables hold in turn what a shop keeps for certain: the ball's
 // radius, its diameter, or nothing.
 constexpr std::uint32_t kInVain = 2;
 
-bool readsCommon(const ir::Program& program) {
-  return std::any_of(program.body.begin(), program.body.end(), [](const ir::ProgramStatement& statement) {
+// The variable that holds the last T; 0: the control has none.
+std::uint32_t wordOfTool(const stdlib::Control& control) {
+  constexpr int kLetter = 20;
+  return control.variables.modalWords ? static_cast<std::uint32_t>(*control.variables.modalWords + kLetter)
+                                      : 0;
+}
+
+// Of the common variables that are read by number.
+template <class Wanted> bool reads(const ir::Program& program, const Wanted& wanted) {
+  return std::any_of(program.body.begin(), program.body.end(), [&](const ir::ProgramStatement& statement) {
     bool found = false;
     ir::eachNode(statement, [&](const ir::Expression& node) {
       const auto* use = std::get_if<ir::MachineVariable>(&node.node);
       const double* number = use == nullptr ? nullptr : ir::constantValue(use->number);
-      found = found || (number != nullptr && *number >= kFirst && *number < kEnd);
+      found = found || (number != nullptr && *number >= kFirst && *number < kEnd &&
+                        wanted(static_cast<std::uint32_t>(*number)));
     });
     return found;
   });
+}
+
+// What the machine alone knows and the branch compares with a number, by variable: the tool in the spindle
+// (#4120), a signal. The first number of each.
+std::map<std::uint32_t, double> asksMachine(const ir::Program& program, const stdlib::Control& control) {
+  std::map<std::uint32_t, double> out;
+  const auto ofMachine = [&](std::uint32_t number) {
+    if (number == wordOfTool(control)) return true;
+    return std::any_of(control.state.begin(), control.state.end(), [&](const stdlib::StateRange& range) {
+      return range.first <= number && number <= range.last && !range.initial && !range.null &&
+             range.access == stdlib::StateRange::Access::ReadOnly;
+    });
+  };
+  const std::function<void(const ir::ConditionPtr&)> look = [&](const ir::ConditionPtr& condition) {
+    ir::match(
+        *condition,
+        [&](const ir::Comparison& node) {
+          const auto* use = std::get_if<ir::MachineVariable>(&node.left->node);
+          const double* number = use == nullptr ? nullptr : ir::constantValue(use->number);
+          const double* value = ir::constantValue(node.right);
+          if (number != nullptr && value != nullptr && *number >= kEnd && *number < 1e6 &&
+              ofMachine(static_cast<std::uint32_t>(*number)))
+            out.emplace(static_cast<std::uint32_t>(*number), *value);
+        },
+        [&](const ir::Not& node) { look(node.inner); },
+        [&](const ir::Junction& node) {
+          look(node.left);
+          look(node.right);
+        },
+        [](const ir::OneOf<ir::IsNull, ir::Truth> auto&) {});
+  };
+  for (const ir::ProgramStatement& statement : program.body)
+    if (const auto* branch = std::get_if<ir::Branch>(&statement.node)) look(branch->condition);
+  return out;
 }
 
 } // namespace
 
 void CaseRunner::findReads(Values& values) {
   Posted& posted = *values.posted;
-  if (!readsCommon(posted.file.programs.front())) return;
+  const ir::Program& program = posted.file.programs.front();
+  // What is asked for is so, until cases come to nothing: then in turns it is not.
+  for (const auto& [number, value] : asksMachine(program, *inputs_->sourceControl))
+    if (!isGiven(number)) values.presets[number] = others_ % 2 == 0 ? value : value == 0 ? 1 : 0;
+  if (!reads(program, [](std::uint32_t) { return true; })) return;
   std::vector<const stdlib::MacroSet*> sets;
   if (sourceSet_ != nullptr) sets.push_back(sourceSet_);
   posted.reads = verify::variablesOf(posted.file, *inputs_->sourceControl, sets);
@@ -43,11 +93,27 @@ void CaseRunner::findReads(Values& values) {
     if (one.number < kFirst || one.number >= kEnd) return true;
     // What the macros of a set leave there is theirs.
     if (sourceSet_ != nullptr && verify::usesVariable(*sourceSet_, one.number)) return true;
-    return other != nullptr && verify::usesVariable(*other, one.number) &&
+    return other != nullptr && one.number < kFirstKept && verify::usesVariable(*other, one.number) &&
            !verify::needsVariable(*other, one.number);
   });
-  // What the macros of the translation want both sides read.
   const double radius = values.drawn.hosts.at("tool_radius");
+  // A branch that looks at the calibration meets a probe that is calibrated.
+  const bool looks = sourceSet_ != nullptr && reads(program, [&](std::uint32_t number) {
+                       return verify::needsVariable(*sourceSet_, number);
+                     });
+  if (looks) {
+    const auto preset = [&](const std::optional<std::uint32_t>& number, double value) {
+      if (number && !isGiven(*number)) values.presets[*number] = value;
+    };
+    const stdlib::ProbingFacts& facts = sourceSet_->probing;
+    preset(facts.radiusX, radius);
+    preset(facts.radiusY, radius);
+    preset(facts.offsetX, 0);
+    preset(facts.offsetY, 0);
+    for (std::uint32_t at = facts.vectorFirst.value_or(1); at <= facts.vectorLast.value_or(0); ++at)
+      preset(at, radius);
+  }
+  // What the macros of the translation want both sides read.
   for (const verify::ProgramVariable& one : posted.reads)
     if (other != nullptr && verify::needsVariable(*other, one.number) && !isGiven(one.number))
       if (const auto value = verify::presetOf(*other, one.number, radius))

@@ -1,5 +1,6 @@
 // What the source does with other values than those of a case, and what its caller has in force.
 #include "targets/CycleCasesParts.h"
+#include "targets/SelectedSystems.h"
 #include "targets/Stage.h"
 #include "verify/Callers.h"
 #include "verify/PathPieces.h"
@@ -40,47 +41,6 @@ bool sameMotion(const verify::Record& a, const verify::Record& b) {
   };
   return std::equal(a.pieces.begin(), end(a), b.pieces.begin(), end(b), samePiece) &&
          std::equal(a.measures.begin(), a.measures.end(), b.measures.begin(), b.measures.end(), sameMeasure);
-}
-
-// The additional work system that a posted program selects before it moves in one, G54.1 Pn. 0: none.
-std::uint32_t extendedIn(const ir::Program& program, const stdlib::Control& control) {
-  for (const ir::ProgramStatement& statement : program.body) {
-    if (std::holds_alternative<ir::Call>(statement.node)) return 0;
-    const auto* block = std::get_if<ir::NcBlock>(&statement.node);
-    if (block == nullptr) continue;
-    bool selects = false, axes = false;
-    std::uint32_t number = 0;
-    for (const ir::Word& word : block->words) {
-      axes = axes || (word.address >= 'X' && word.address <= 'Z');
-      const double* value = ir::constantValue(word.value);
-      if (value == nullptr || *value < 0 || *value > 9999) continue;
-      const auto tenths = static_cast<std::uint32_t>(std::lround(*value * 10));
-      const stdlib::CodeInfo* info = word.address == 'G' ? control.find('G', tenths) : nullptr;
-      selects = selects || (info != nullptr && info->function == stdlib::Function::ExtendedWorkSystem);
-      if (word.address == 'P') number = tenths / 10;
-    }
-    if (selects) return number;
-    if (axes) return 0;
-  }
-  return 0;
-}
-
-// What is drawn is meant in it, and another one is in force at entry (`apart`), so that a selection that is
-// missing shows.
-void selectExtended(const ir::Program& program, const stdlib::Control& control, bool apart,
-                    verify::Entry& entry) {
-  const std::uint32_t number = extendedIn(program, control);
-  const stdlib::SystemVariables& v = control.variables;
-  if (number == 0 || !v.extendedX || static_cast<int>(number) > v.extendedCount) return;
-  const sim::Point3 zero = entry.zeros[entry.system - 54];
-  const double along[] = {zero.x, zero.y, zero.z};
-  for (int axis = 0; axis < 3; ++axis)
-    entry.variables.emplace_back(static_cast<std::uint32_t>(*v.extendedX + axis * v.axisStep +
-                                                            (static_cast<int>(number) - 1) * v.extendedStep),
-                                 along[axis]);
-  if (!apart) return;
-  entry.system = entry.system == 59 ? 54 : entry.system + 1;
-  entry.start = entry.start + zero - entry.zeros[entry.system - 54];
 }
 
 } // namespace
@@ -218,8 +178,12 @@ bool CaseRunner::Questions::moves(const std::string& field) {
 
 verify::Entry CaseRunner::entryOf(const Values& values, bool probeOn) const {
   verify::Entry out = entryFor(values.drawn, probeOn);
+  // Both sides run under it; a source that puts its own length in force says by itself what holds.
+  out.keepsLength =
+      values.posted != nullptr && !verify::hasCode(values.posted->file.programs.front(),
+                                                   *inputs_->sourceControl, stdlib::Function::ToolLengthPlus);
   if (values.posted)
-    selectExtended(values.posted->file.programs.front(), *inputs_->sourceControl,
+    selectExtended(values.posted->file.programs.front(), *inputs_->sourceControl, switches_,
                    target_ == nullptr || !(target_->datumsMovePath() || target_->needsNominal()), out);
   if (values.path && target_ != nullptr && target_->datumsMovePath()) out.drawn = values.path->nominal();
   for (const auto& [number, value] : variables_)

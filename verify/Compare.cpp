@@ -120,7 +120,7 @@ private:
     if (alarms && (!source_.alarmKind.empty() || !target_.alarmKind.empty()))
       same = source_.alarmKind == target_.alarmKind || comparesLimit();
     if (alarms && rules_.sameAlarmNumbers && same)
-      same = (renumbered() || source_.alarm == target_.alarm) && source_.text == target_.text;
+      same = renumbered() ? sameOwnText() : source_.alarm == target_.alarm && source_.text == target_.text;
     else if (alarms && rules_.sameProgram && same && source_.alarmKind.empty())
       same = sameOwnAlarm();
     else if (alarms && same && renumbered() && target_.alarmKind.empty())

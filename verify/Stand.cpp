@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kMacroFeed = 1000; // of protected moves, where a set keeps it in a variable
 constexpr std::uint32_t kFirstSystemVariable = 1000;
+constexpr int kLetterT = 20; // of the words in force: A is the first
 
 } // namespace
 
@@ -90,12 +91,14 @@ bool Stand::prepare(sim::Machine& machine, const Entry& entry, double ballRadius
   // One of the two ways of a control does: both sides run under it, and a length that one of them lacks, or
   // puts in force later, moves its path.
   if (entry.otherOffset) machine.keepPlaceOnToolLength();
+  if (entry.keepsLength) machine.keepToolLength();
   for (const auto& [group, tenths] : entry.modal)
     machine.presetModal(group, tenths);
   for (const auto& [number, value] : entry.variables) {
-    if (number < kFirstSystemVariable)
-      machine.preset(number, value);
-    else if (!machine.write(number, value))
+    const auto& inForce = machine.control().variables.modalWords;
+    if (inForce && number == static_cast<std::uint32_t>(*inForce + kLetterT))
+      machine.putTool(static_cast<std::uint32_t>(value));
+    else if (!machine.preset(number, value) && number >= kFirstSystemVariable)
       return false;
   }
   return machine.running();

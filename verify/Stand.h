@@ -36,6 +36,9 @@ struct Entry {
   // Its length is the probe's, and it is in force; 1 where the control has no such number.
   std::uint32_t toolOffset = 1;
   std::optional<std::uint32_t> otherOffset = {}; // in force in its place; 0: none
+  // The length stays in force over G28 and G53 in Z, as a parameter has it on most controls; else nobody
+  // knows.
+  bool keepsLength = false;
   std::array<sim::Point3, 6> zeros = standZeros();
   double feed = 800;        // mm/min
   std::uint8_t spindle = 0; // 1 clockwise, 2 counterclockwise

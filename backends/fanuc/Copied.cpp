@@ -196,13 +196,20 @@ private:
       if (code.group) now.erase({'G', *code.group});
       return;
     default:
-      if (isMode(code)) return; // saved
+      if (isMode(code)) return;      // saved
+      if (smoothsPath(code)) return; // the header says so
       if (code.function == Function::PathMode && code.tenths != kExactStop) {
         now[{'C', static_cast<int>(code.tenths)}] = {{at, text}};
         return;
       }
       if (code.group && !always_.contains(*code.group)) now[{'G', *code.group}] = {{at, text}};
     }
+  }
+
+  // How exactly corners are passed, as G8 and G5.1 say it: no position depends on it, and no variable tells
+  // it.
+  static bool smoothsPath(const stdlib::CodeInfo& code) {
+    return code.function == Function::PathMode && !code.group && code.tenths != kExactStop;
   }
 
   // The caller has no shift: 0 along the axis is none.
@@ -232,7 +239,7 @@ private:
             code->function == Function::ToolChange)
           lose(word, *tenths);
         out_.workSystem = out_.workSystem || subprogram;
-      } else if (code != nullptr && code->function == Function::ToolLengthPlus) {
+      } else if (code != nullptr && (code->function == Function::ToolLengthPlus || smoothsPath(*code))) {
         lose(word, *tenths);
       } else if (code == nullptr) {
         const std::string text = wordText('G', *tenths);

@@ -4,6 +4,7 @@
 
 #include "backends/fanuc/State.h"
 #include "backends/fanuc/Uses.h"
+#include "ir/Flow.h"
 #include "ir/Positions.h"
 #include "ir/Walk.h"
 #include "support/Decimal.h"
@@ -46,7 +47,8 @@ void writeBody(State& state) {
   state.body = nullptr;
 }
 
-// A G43 of the body comes before anything moves the tool or measures: the caller's length does not count.
+// On each way through the body a G43 comes before anything moves the tool or measures: the caller's length
+// does not count.
 bool takesOwnLength(const State& state) {
   const auto takes = [&](const ir::OpaqueBlock& block) {
     return std::any_of(block.words.begin(), block.words.end(), [&](const ir::Word& word) {
@@ -57,22 +59,32 @@ bool takesOwnLength(const State& state) {
     });
   };
   enum class Then : std::uint8_t { GoOn, Takes, Ends };
-  for (const ir::CycleStatement& statement : state.cycle.body) {
+  const auto& body = state.cycle.body;
+  const auto next = ir::successors(body);
+  std::vector<bool> seen(body.size() + 1, false);
+  std::vector<std::size_t> open = {0};
+  bool taken = false;
+  while (!open.empty()) {
+    const std::size_t at = open.back();
+    open.pop_back();
+    if (at >= body.size() || seen[at]) continue;
+    seen[at] = true;
     const Then then = match(
-        statement, [&](const ir::OpaqueBlock& node) { return takes(node) ? Then::Takes : Then::GoOn; },
+        body[at], [&](const ir::OpaqueBlock& node) { return takes(node) ? Then::Takes : Then::GoOn; },
         [](const ir::Move& node) {
           const bool down = node.axes[ir::indexOf(ir::Axis::Z)].has_value();
           return down || node.motion == ir::Motion::Protected ? Then::Ends : Then::GoOn;
         },
         [](const ir::CallCycle& node) { return node.moves ? Then::Ends : Then::GoOn; },
-        [](const ir::OneOf<ir::Measure, ir::Label, ir::Jump, ir::Branch, ir::Return> auto&) {
-          return Then::Ends;
-        },
+        [](const ir::Measure&) { return Then::Ends; },
         [](const ir::OneOf<ir::Store, ir::ProbePower, ir::Comment, ir::Assign, ir::Spindle, ir::Coolant,
-                           ir::SetMode, ir::Dwell, ir::Stop, ir::Alarm> auto&) { return Then::GoOn; });
-    if (then != Then::GoOn) return then == Then::Takes;
+                           ir::SetMode, ir::Dwell, ir::Stop, ir::Alarm, ir::Label, ir::Jump, ir::Branch,
+                           ir::Return> auto&) { return Then::GoOn; });
+    if (then == Then::Ends) return false;
+    taken = taken || then == Then::Takes;
+    if (then == Then::GoOn) open.insert(open.end(), next[at].begin(), next[at].end());
   }
-  return false;
+  return taken;
 }
 
 bool fits(const EmitOptions& options, SourceRange range, Diagnostics& diagnostics) {

@@ -48,8 +48,23 @@ Form formOf(const State& state, const stdlib::MacroArgument& argument) {
   return argument.point || state.control.isLength(argument.letter) ? Form::Selector : Form::Whole;
 }
 
+// Numbers that the maker of the control gives to macros of its own, beside other sets' (haas.md, 6).
+bool isTaken(const State& state, std::uint32_t program) {
+  constexpr std::uint32_t kFirst = 9000;
+  const auto& package = state.control.package;
+  return package && package->set != state.macros.name && program >= kFirst;
+}
+
 // Nothing is written where something was refused.
 void writeCall(State& state, const MacroCall& call, const ir::Origin& origin) {
+  if (isTaken(state, call.signature->program)) {
+    if (state.reported.insert("taken programs").second)
+      state.refuse<diag::MacroProgramTaken>(origin.range(), state.control.title, call.signature->program,
+                                            state.macros.title, state.control.package->title,
+                                            state.control.package->set);
+    state.failed = true;
+    return;
+  }
   std::vector<CallWord> arguments;
   for (const GivenArgument& one : call.arguments)
     arguments.push_back({one.argument->letter,
@@ -120,6 +135,7 @@ public:
     if (measure_.setting)
       guardSystem(state_, measure_.setting->system, origin_,
                   values.setsSystem ? extendedSystems(state_, signature_) : ExtendedSystems());
+    keepPositions(state_, origin_);
     writeCall(state_, macroCall(signature_, measure_, values), origin_);
     if (state_.failed) return;
     reportSearch();
@@ -321,6 +337,7 @@ void writeCycle(State& state, const ir::CallCycle& given, const ir::Origin& orig
                                           signature->program, state.macros.title, given.set);
   }
   if (state.failed) return;
+  keepPositions(state, origin);
   writeCall(state, call, origin);
   if (state.failed) return;
   keepResults(state, origin);

@@ -9,7 +9,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 #include <utility>
+#include <vector>
 
 namespace dotek::backends::fanuc {
 
@@ -83,10 +86,48 @@ bool checksConfine(const State& state, ir::VariableId id) {
   return tried;
 }
 
+// What locals that the checks alone assign, and once, have beside these.
+ir::Environment withLocals(const ir::Cycle& cycle, ir::Environment environment) {
+  std::map<ir::VariableId, int> assigned;
+  for (const auto* list : {&cycle.checks, &cycle.body})
+    for (const ir::CycleStatement& statement : *list)
+      if (const auto* assign = std::get_if<ir::Assign>(&statement.node)) ++assigned[assign->variable];
+  for (const ir::CycleStatement& statement : cycle.checks) {
+    const auto* assign = std::get_if<ir::Assign>(&statement.node);
+    if (assign != nullptr && assigned[assign->variable] == 1)
+      environment[assign->variable] = ir::evaluate(*assign->value, environment);
+  }
+  return environment;
+}
+
+// The variables that a caller gives, from which the checks compute `value`.
+std::set<ir::VariableId> givenFor(const ir::Cycle& cycle, const ir::ExpressionPtr& value) {
+  std::set<ir::VariableId> out, seen;
+  std::vector<ir::ExpressionPtr> open = {value};
+  while (!open.empty()) {
+    const ir::ExpressionPtr now = open.back();
+    open.pop_back();
+    for (const ir::VariableId id : variablesOf(now)) {
+      if (!seen.insert(id).second) continue;
+      if (cycle.variable(id).role != ir::Role::Local) out.insert(id);
+      for (const ir::CycleStatement& statement : cycle.checks)
+        if (const auto* assign = std::get_if<ir::Assign>(&statement.node);
+            assign != nullptr && assign->variable == id)
+          open.push_back(assign->value);
+    }
+  }
+  return out;
+}
+
+struct NoSystem {
+  double given = 0; // the variable's value
+  double number = 0;
+};
+
 // The first value of `id` that the checks let pass, where they let only such pass as `system` makes no work
 // system of: then whoever calls the program gets an alarm. Values that end like the largest and the smallest
 // are those that the checks of `id` reject, whatever the other arguments are.
-std::optional<double> passesNoSystem(const State& state, ir::VariableId id, const NamedSystem& system) {
+std::optional<NoSystem> passesNoSystem(const State& state, ir::VariableId id, const NamedSystem& system) {
   constexpr double kNone = 99999;
   constexpr int kMostTried = 400;
   for (ir::Environment& environment : environments(state)) {
@@ -97,12 +138,12 @@ std::optional<double> passesNoSystem(const State& state, ir::VariableId id, cons
     };
     const ir::CycleStatement* const rejected = alarm(kNone);
     if (rejected == nullptr || alarm(-kNone) != rejected) continue;
-    std::optional<double> first;
+    std::optional<NoSystem> first;
     for (int value = 0; value <= kMostTried; ++value) {
       if (alarm(value) == rejected) continue;
-      const ir::Scalar named = ir::evaluate(*system.number, environment);
+      const ir::Scalar named = ir::evaluate(*system.number, withLocals(state.cycle, environment));
       if (!named.known() || names(named.value, system.extended)) return std::nullopt;
-      if (!first) first = value;
+      if (!first) first = {static_cast<double>(value), named.value};
     }
     if (first) return first;
   }
@@ -275,13 +316,10 @@ void writeSystemAlarm(State& state, const NamedSystem& which, const ir::Origin& 
     doIf(state, ir::isNull(system), left + "=" + valueText(state, ir::constant(kFirstSystem), origin),
          origin);
   }
-  for (const ir::VariableId read : variablesOf(named))
-    if (const auto passes = passesNoSystem(state, read, which)) {
-      ir::Environment environment(state.cycle.variables.size());
-      environment[read] = ir::Scalar::of(*passes);
-      state.refuse<diag::SystemNeverNamed>(given.range(), state.cycle.variable(read).name,
-                                           numberText(*passes),
-                                           numberText(ir::evaluate(*named, environment).value));
+  for (const ir::VariableId id : givenFor(state.cycle, named))
+    if (const auto passes = passesNoSystem(state, id, which)) {
+      state.refuse<diag::SystemNeverNamed>(origin.range(), state.cycle.variable(id).name,
+                                           numberText(passes->given), numberText(passes->number));
       return;
     }
   const bool more = which.extended.first != 0;

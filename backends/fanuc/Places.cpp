@@ -1,4 +1,5 @@
 // Where the probe is, and coordinates in the frame that a word wants.
+#include "backends/common/Waits.h"
 #include "backends/fanuc/State.h"
 #include "backends/fanuc/Uses.h"
 #include "ir/Flow.h"
@@ -102,12 +103,12 @@ bool isAuxiliary(const State& state, const ir::OpaqueBlock& block) {
   });
 }
 
-// The body with comments in the place of copied codes that move nothing and change no mode.
+// The body with comments in the place of copied codes that move nothing and change no mode, and of waits.
 ir::Cycle withoutAuxiliary(const State& state) {
   ir::Cycle out = state.cycle;
   for (ir::CycleStatement& statement : out.body)
     if (const auto* block = std::get_if<ir::OpaqueBlock>(&statement.node);
-        block && isAuxiliary(state, *block))
+        block && (isAuxiliary(state, *block) || isWait(*block, state.options.sourceControl)))
       statement.node = ir::Comment{};
   return out;
 }

@@ -1,5 +1,6 @@
 // Which variable holds what a macro measured, and keeping it where a later call would overwrite it.
 #include "backends/common/MacroCall.h"
+#include "backends/common/Waits.h"
 #include "backends/fanuc/OwnCycles.h"
 #include "backends/fanuc/State.h"
 #include "backends/fanuc/Uses.h"
@@ -18,7 +19,8 @@ bool callsMacro(const State& state, const ir::CycleStatement& statement) {
       [&](const ir::ProbePower& node) {
         return state.macros.find(node.on ? stdlib::Intent::ProbeOn : stdlib::Intent::ProbeOff) != nullptr;
       },
-      [](const ir::OneOf<ir::Measure, ir::CallCycle, ir::OpaqueBlock> auto&) { return true; },
+      [](const ir::OneOf<ir::Measure, ir::CallCycle> auto&) { return true; },
+      [&](const ir::OpaqueBlock& node) { return !isWait(node, state.control); },
       [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Comment, ir::Assign, ir::Return,
                          ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop, ir::Alarm> auto&) {
         return false;
@@ -79,7 +81,7 @@ public:
         if (seen[from]) continue;
         seen[from] = true;
         const ir::CycleStatement& statement = state_.cycle.body[from];
-        switch (leavesOf(statement)) {
+        switch (leavesOf(statement, state_.control)) {
         case Leaves::Results: out.push_back(&statement); break;
         case Leaves::Unknown: return {};
         case Leaves::Them: open.push_back(from); break;
@@ -94,11 +96,11 @@ private:
   // What a statement does to the results that it finds: results of its own, what nobody knows, nothing.
   enum class Leaves : std::uint8_t { Results, Unknown, Them };
 
-  static Leaves leavesOf(const ir::CycleStatement& statement) {
+  static Leaves leavesOf(const ir::CycleStatement& statement, const stdlib::Control& control) {
     return match(
         statement, [](const ir::Measure&) { return Leaves::Results; },
         [](const ir::CallCycle& node) { return node.power ? Leaves::Them : Leaves::Results; },
-        [](const ir::OpaqueBlock&) { return Leaves::Unknown; },
+        [&](const ir::OpaqueBlock& node) { return isWait(node, control) ? Leaves::Them : Leaves::Unknown; },
         [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Move, ir::ProbePower, ir::Comment,
                            ir::Assign, ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop,
                            ir::Alarm> auto&) { return Leaves::Them; });
@@ -166,6 +168,18 @@ ir::ExpressionPtr expectedOf(State& state, const ir::CycleStatement& measured, s
       return place(state, {one.value, *one.frame, nullptr}, *axis, ir::Frame::Work, measured.origin.range());
   }
   return axis ? awayFrom(workPosition(state, *axis), *cycle, *axis) : nullptr;
+}
+
+// Whether it expects along the axis what its position at the call says, and that is not known while the
+// program is written. Then the program reads it before the call.
+bool expectsAtPosition(State& state, const ir::CycleStatement& measured, ir::Axis axis) {
+  if (workPosition(state, axis) != nullptr) return false;
+  if (const auto* measure = std::get_if<ir::Measure>(&measured.node)) return !measure->target;
+  const auto* cycle = std::get_if<ir::CallCycle>(&measured.node);
+  return cycle != nullptr &&
+         std::none_of(cycle->arguments.begin(), cycle->arguments.end(), [&](const ir::CycleArgument& one) {
+           return one.frame && one.parameter.back() == "xyz"[ir::indexOf(axis)];
+         });
 }
 
 // Each of the measurements keeps the result in one local, where they leave it in several variables.
@@ -245,6 +259,25 @@ std::optional<std::uint32_t> variableOf(State& state, ir::ResultName name, const
 
 } // namespace
 
+void keepPositions(State& state, const ir::Origin& given) {
+  const ir::CycleStatement* measure = &state.cycle.body[state.at];
+  for (const auto& [key, local] : state.body->kept) {
+    const std::optional<ErrorOf> of = key.first == measure ? errorOf(key.second) : std::nullopt;
+    if (!of || !of->axis || !isComputed(state, *measure, key.second)) continue;
+    if (!expectsAtPosition(state, *measure, *of->axis)) continue;
+    ir::Origin origin;
+    origin.ranges = given.ranges;
+    origin.reason = "where the feature is expected";
+    ir::ExpressionPtr now = positionNow(state, *of->axis, origin);
+    if (const auto* cycle = std::get_if<ir::CallCycle>(&measure->node))
+      now = awayFrom(now, *cycle, *of->axis);
+    if (now == nullptr) continue; // refused where its error is computed
+    assign(state, "#" + std::to_string(local), now, origin);
+    state.waited = state.sheet.size(); // nothing moves in between
+    state.expectedRead.insert(key);
+  }
+}
+
 void keepResults(State& state, const ir::Origin& given) {
   const ir::CycleStatement* measure = &state.cycle.body[state.at];
   for (const auto& [key, local] : state.body->kept) {
@@ -266,7 +299,9 @@ void keepResults(State& state, const ir::Origin& given) {
         continue;
       }
       const ErrorOf of = *errorOf(key.second);
-      const ir::ExpressionPtr expected = expectedOf(state, *measure, of.axis);
+      const ir::ExpressionPtr expected = state.expectedRead.contains(key)
+                                             ? systemVariable(static_cast<int>(local))
+                                             : expectedOf(state, *measure, of.axis);
       const auto variable = variableOf(state, of.measured, measure, origin.range());
       if (expected == nullptr)
         state.refuse<diag::ResultUnknown>(origin.range(), state.macros.title, ir::resultTitle(key.second));

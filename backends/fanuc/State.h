@@ -140,6 +140,9 @@ struct State {
   std::size_t waited = 0;     // size of `sheet` where the axes are waited for
   const Body* body = nullptr; // facts of the body while it is written, else null
   std::size_t at = 0;         // index of the statement of the body that is being written
+  // Kept errors whose local holds, until the call has been dealt with, the place at which the feature is
+  // expected.
+  std::set<std::pair<const ir::CycleStatement*, ir::ResultName>> expectedRead;
 };
 
 // "G65", "G54.1", "M3".
@@ -277,6 +280,9 @@ bool callsMacro(const State& state, const ir::CycleStatement& statement);
 
 // Reserves locals for results that a later call of a macro would overwrite before they are used.
 void planResults(State& state, Body& body);
+// Before the call of the measurement that is being written: reads the place from which an error counts, where
+// it is known on the control alone.
+void keepPositions(State& state, const ir::Origin& origin);
 // After the measurement that is being written: keeps what was reserved.
 void keepResults(State& state, const ir::Origin& origin);
 // "#135": what holds the result; "" where it was refused.

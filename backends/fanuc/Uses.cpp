@@ -1,6 +1,7 @@
 #include "backends/fanuc/Uses.h"
 
 #include "backends/common/Waits.h"
+#include "ir/Decided.h"
 #include "ir/Flow.h"
 #include "ir/Rewrite.h"
 #include "ir/Walk.h"
@@ -69,44 +70,80 @@ bool mayMove(const ir::CycleStatement& statement, const stdlib::Control& control
                          ir::Alarm> auto&) { return false; });
 }
 
-// Whether the branch decides on a move, or on an assignment to one of `moving`.
-bool decides(const ir::Cycle& cycle, const std::vector<std::vector<std::size_t>>& next, std::size_t branch,
-             const Ids& moving, const stdlib::Control& control) {
-  if (cycle.body.size() > kMostStatements) return true;
-  if (next[branch].size() < 2) return false;
-  const auto first = reachableFrom(next, next[branch][0]);
-  const auto second = reachableFrom(next, next[branch][1]);
-  // A side that ends in an alarm before anything moves: the branch checks.
-  const auto onlyStops = [&](const std::vector<bool>& side, std::size_t begin) {
-    bool stops = false;
-    for (std::size_t i = 0; i < cycle.body.size(); ++i) {
-      if (!side[i] && i != begin) continue;
-      if (mayMove(cycle.body[i], control)) return false;
-      stops = stops || std::holds_alternative<ir::Alarm>(cycle.body[i].node);
+// The statements of which nothing but an alarm comes, before anything moves.
+std::vector<bool> stopping(const ir::Cycle& cycle, const std::vector<std::vector<std::size_t>>& next,
+                           const stdlib::Control& control) {
+  const std::size_t end = cycle.body.size();
+  std::vector<bool> out(end + 1, true);
+  out[end] = false;
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (std::size_t i = end; i-- > 0;) {
+      if (!out[i]) continue;
+      const bool goesOn =
+          std::any_of(next[i].begin(), next[i].end(), [&](std::size_t to) { return !out[to]; });
+      if (!goesOn && !mayMove(cycle.body[i], control)) continue;
+      out[i] = false;
+      changed = true;
     }
-    return stops;
-  };
-  if (onlyStops(first, next[branch][0]) || onlyStops(second, next[branch][1])) return false;
-  // A work offset that is set moves what comes after it.
-  const auto setsBeforeMove = [&](std::size_t at) {
-    const auto* call = std::get_if<ir::CallCycle>(&cycle.body[at].node);
-    if (call == nullptr || !call->setting) return false;
-    const auto later = reachableFrom(next, at);
-    for (std::size_t i = 0; i < cycle.body.size(); ++i)
-      if (later[i] && mayMove(cycle.body[i], control)) return true;
-    return false;
-  };
-  const bool loop = first[branch] || second[branch];
-  for (std::size_t i = 0; i < cycle.body.size(); ++i) {
-    const bool a = first[i] || i == next[branch][0];
-    const bool b = second[i] || i == next[branch][1];
-    if (loop ? !a && !b : a == b) continue;
-    if (mayMove(cycle.body[i], control) || setsBeforeMove(i)) return true;
-    const auto* assign = std::get_if<ir::Assign>(&cycle.body[i].node);
-    if (assign != nullptr && moving.contains(assign->variable)) return true;
   }
-  return false;
+  return out;
 }
+
+// What branches of the body decide on. A way that only stops is none: such a branch checks.
+class Decisions {
+public:
+  Decisions(const ir::Cycle& cycle, const stdlib::Control& control)
+      : cycle_(cycle), control_(control), next_(ir::successors(cycle.body)), ways_(waysOf()),
+        decided_(ways_) {}
+
+  // Whether the branch decides on a move, or on an assignment to one of `moving`.
+  bool moves(std::size_t branch, const Ids& moving) const {
+    if (cycle_.body.size() > kMostStatements) return true;
+    std::vector<bool> seen(cycle_.body.size(), false);
+    std::vector<std::size_t> open = {branch};
+    while (!open.empty()) {
+      const std::size_t at = open.back();
+      open.pop_back();
+      for (const std::size_t one : decided_.by(at)) {
+        if (seen[one]) continue;
+        seen[one] = true;
+        open.push_back(one);
+        const ir::CycleStatement& statement = cycle_.body[one];
+        if (mayMove(statement, control_) || setsBeforeMove(one)) return true;
+        const auto* assign = std::get_if<ir::Assign>(&statement.node);
+        if (assign != nullptr && moving.contains(assign->variable)) return true;
+      }
+    }
+    return false;
+  }
+
+private:
+  std::vector<std::vector<std::size_t>> waysOf() const {
+    std::vector<std::vector<std::size_t>> out = next_;
+    if (cycle_.body.size() > kMostStatements) return out;
+    const std::vector<bool> stops = stopping(cycle_, next_, control_);
+    for (std::vector<std::size_t>& places : out)
+      if (std::any_of(places.begin(), places.end(), [&](std::size_t to) { return !stops[to]; }))
+        std::erase_if(places, [&](std::size_t to) { return stops[to]; });
+    return out;
+  }
+
+  // A work offset that is set moves what comes after it.
+  bool setsBeforeMove(std::size_t at) const {
+    const auto* call = std::get_if<ir::CallCycle>(&cycle_.body[at].node);
+    if (call == nullptr || !call->setting) return false;
+    const auto later = reachableFrom(next_, at);
+    for (std::size_t i = 0; i < cycle_.body.size(); ++i)
+      if (later[i] && mayMove(cycle_.body[i], control_)) return true;
+    return false;
+  }
+
+  const ir::Cycle& cycle_;
+  const stdlib::Control& control_;
+  std::vector<std::vector<std::size_t>> next_, ways_;
+  ir::Decided decided_;
+};
 
 // Whether the branch among the checks decides on an assignment to one of `wanted`, both sides of which pass
 // the checks.
@@ -240,7 +277,8 @@ Ids movingVariables(const ir::Cycle& given, const stdlib::Control& control) {
   Ids out;
   for (const ir::CycleStatement& statement : cycle.body)
     out.merge(movesBy(statement));
-  const auto next = ir::successors(cycle.body), ofChecks = ir::successors(cycle.checks);
+  const auto ofChecks = ir::successors(cycle.checks);
+  const Decisions decisions(cycle, control);
   for (std::size_t before = out.size() + 1; before != out.size();) {
     before = out.size();
     for (const auto* list : {&cycle.checks, &cycle.body})
@@ -254,7 +292,7 @@ Ids movingVariables(const ir::Cycle& given, const stdlib::Control& control) {
       if (branch == nullptr) continue;
       const Ids read = idsOf(branch->condition);
       if (std::includes(out.begin(), out.end(), read.begin(), read.end())) continue;
-      if (decides(cycle, next, i, out, control)) out.insert(read.begin(), read.end());
+      if (decisions.moves(i, out)) out.insert(read.begin(), read.end());
     }
   }
   out.erase(out.lower_bound(static_cast<ir::VariableId>(given.variables.size())), out.end());

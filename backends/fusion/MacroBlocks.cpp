@@ -148,6 +148,8 @@ bool MacroBlocks::block(const std::vector<const ir::CycleStatement*>& statements
         },
         [&](const ir::Store& node) {
           if (!moved_.contains(one)) store(node, origin, lines);
+          for (Place& place : expected_)
+            forgetStored(place, node);
         },
         [&](const ir::Comment& node) { comment += " (" + node.text + ")"; },
         [](const ir::Label&) {}, // its number is before the lines

@@ -250,8 +250,16 @@ bool MacroBlocks::errorText(ir::ResultName name, const stdlib::MacroSignature& s
   }
   const stdlib::MacroResult* found = findResult(signature, measured);
   if (found == nullptr || !found->documented || expected == nullptr) return false;
+  bool ofResult = false; // it may have been overwritten by this measurement
+  ir::eachNode(expected, [&](const ir::Expression& node) {
+    ofResult = ofResult || std::holds_alternative<ir::MeasuredResult>(node.node);
+  });
+  if (ofResult) return false;
   text.add("#" + std::to_string(found->variable) + "-[");
-  texts_.number(text, expected, origin, true);
+  if (needsControl(expected))
+    macro(text, ir::simplify(expected), origin);
+  else
+    texts_.number(text, expected, origin, true);
   text.add("]");
   return true;
 }

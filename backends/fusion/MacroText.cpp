@@ -29,15 +29,6 @@ ir::ExpressionPtr plus(const ir::ExpressionPtr& a, const ir::ExpressionPtr& b) {
   return ir::binary(ir::BinaryOp::Add, a, b);
 }
 
-bool needsControl(const ir::ExpressionPtr& value) {
-  bool found = false;
-  ir::eachNode(value, [&](const ir::Expression& node) {
-    found = found || std::holds_alternative<ir::MachineVariable>(node.node) ||
-            std::holds_alternative<ir::MeasuredResult>(node.node);
-  });
-  return found;
-}
-
 std::optional<int> workSystemVariable(const stdlib::Control& control) {
   const auto* code = control.find(stdlib::Function::WorkSystem);
   if (code == nullptr || !code->group || !control.variables.modalFirst) return std::nullopt;
@@ -89,6 +80,15 @@ std::string_view functionOf(ir::UnaryOp op, bool wholeRound) {
 
 } // namespace
 
+bool needsControl(const ir::ExpressionPtr& value) {
+  bool found = false;
+  ir::eachNode(value, [&](const ir::Expression& node) {
+    found = found || std::holds_alternative<ir::MachineVariable>(node.node) ||
+            std::holds_alternative<ir::MeasuredResult>(node.node);
+  });
+  return found;
+}
+
 void MacroBlocks::flow(const ir::CycleStatement& statement) {
   const auto forget = [&] {
     for (Place& place : at_)
@@ -116,10 +116,24 @@ void MacroBlocks::flow(const ir::CycleStatement& statement) {
       [&](const ir::Store& node) {
         const double* number = ir::constantValue(node.number);
         if (number == nullptr || *number >= kFirstOfMachine) forget();
+        for (Place& place : at_)
+          forgetStored(place, node);
       },
       [](const ir::OneOf<ir::Jump, ir::Branch, ir::Move, ir::Measure, ir::CallCycle, ir::ProbePower,
                          ir::Comment, ir::Assign, ir::Return, ir::Spindle, ir::Coolant, ir::SetMode,
                          ir::Dwell, ir::Stop, ir::Alarm, ir::OpaqueBlock> auto&) {});
+}
+
+void MacroBlocks::forgetStored(Place& place, const ir::Store& store) {
+  if (place.value == nullptr) return;
+  const double* number = ir::constantValue(store.number);
+  bool reads = false;
+  ir::eachNode(place.value, [&](const ir::Expression& node) {
+    const auto* variable = std::get_if<ir::MachineVariable>(&node.node);
+    const double* other = variable == nullptr ? nullptr : ir::constantValue(variable->number);
+    reads = reads || (variable != nullptr && (number == nullptr || other == nullptr || *number == *other));
+  });
+  if (reads) place.value = nullptr;
 }
 
 ir::ExpressionPtr MacroBlocks::positionNow(ir::Axis axis) {

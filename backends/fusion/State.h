@@ -152,6 +152,8 @@ private:
   };
   // Labels, jumps and stores of the block: what is known of the position no more.
   void flow(const ir::CycleStatement& statement);
+  // The place is not known any more where it reads what the store sets.
+  static void forgetStored(Place& place, const ir::Store& store);
   // An expression of macro B; what the script knows is printed as its value.
   void macro(Text& text, const ir::ExpressionPtr& value, const ir::Origin& origin);
   void macroOperand(Text& text, const ir::ExpressionPtr& value, const ir::Origin& origin);
@@ -241,6 +243,9 @@ private:
   bool saysSearch_ = false;                          // that it goes on beyond the source's
   std::map<std::string, int> alarms_;                // numbers of alarms of ours, by their texts
 };
+
+// A variable of the control or a result of its macros is in it: the script cannot compute it.
+bool needsControl(const ir::ExpressionPtr& value);
 
 // ---- Properties.cpp ----
 

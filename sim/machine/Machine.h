@@ -122,6 +122,9 @@ public:
   // From now on a tool length without a Z moves the coordinates and not the machine. Else what moves is not
   // known, a parameter of the control says it: Z is lost.
   void keepPlaceOnToolLength() { lengthKeepsPlace_ = true; }
+  // A tool length stays in force over a move to a place of the machine in Z, which no source says of every
+  // control.
+  void keepToolLength() { keepsLength_ = true; }
   void putTool(std::uint32_t tool); // into the spindle, before the program begins
   // Before the program begins: what turns and flows, and a code in force (times ten) that changes nothing but
   // what programs read of its group.
@@ -444,6 +447,7 @@ private:
   std::uint32_t lost_ = 0;
   std::string_view lostBy_; // the last code that took positions away, and its line
   std::uint64_t lostLine_ = 0;
+  bool keepsLength_ = false;
   bool lengthInDoubt_ = false;
   std::vector<Frame> stack_;
   RunEnd end_;

@@ -200,7 +200,7 @@ bool Machine::machineMove(const NcWords& w) {
     shown_ |= 1u << i;
     uncertain_ &= ~(1u << i);
     // Whether the tool's length stays in force depends on a parameter.
-    if (i == 2 && toolLength_ != 0) lose(1u << 2, "G53");
+    if (i == 2 && toolLength_ != 0 && !keepsLength_) lose(1u << 2, "G53");
   }
   movedInMachine(axisNumbers(w.present & kAxisBits));
   if (trace_ != nullptr) {
@@ -259,7 +259,7 @@ bool Machine::reference(const NcWords& w, bool first) {
     if (!has(w, i)) continue;
     work_[i] = snap(-offset_[i] - (i == 2 ? toolLength_ : 0));
     // Whether the tool's length stays in force depends on a parameter.
-    if (!first || (i == 2 && toolLength_ != 0)) lose(1u << i, first ? "G28" : "G30");
+    if (!first || (i == 2 && toolLength_ != 0 && !keepsLength_)) lose(1u << i, first ? "G28" : "G30");
   }
   movedInMachine(axisNumbers(w.present & kAxisBits));
   if (trace_ != nullptr) {
@@ -271,7 +271,7 @@ bool Machine::reference(const NcWords& w, bool first) {
     trace_->position(knownOf(via, unknown & ~named), shown_).end();
   }
   if (watcher_ == nullptr || !running()) return true;
-  const bool doubt = lengthInDoubt_ || (has(w, 2) && toolLength_ != 0);
+  const bool doubt = lengthInDoubt_ || (has(w, 2) && toolLength_ != 0 && !keepsLength_);
   lengthInDoubt_ = false;
   tellMotion(MotionKind::Rapid, axisNumbers(w.present & kAxisBits), first);
   lengthInDoubt_ = doubt;
