@@ -90,26 +90,23 @@ public:
                   (excluded_ == 0 ? "" : fmt::format(" beside the {} that dotek.toml excludes", excluded_)));
     const std::deque<lint::Project>& projects = projects_.gather(*inputs_, sufReadings_, checked_, posts_);
     if (changed_) together_.emplace(projects, *changed_, [this](FileId file) { return isChanged(file); });
-    const auto run = [&](const auto& wanted) {
-      std::size_t done = 0;
-      for (const lint::Project& project : projects) {
-        say("{} files read, rules on part {} of {}", checkedFiles_, ++done, projects.size());
-        lint::runRules(project, session_.diagnostics(), wanted);
-      }
-    };
     // Shared rules all run, since one that nobody asked for may tell why another finding begins at its place.
-    run([](const lint::NamedRule& rule) { return rule.rule->shared; });
+    const auto wanted = [&](const lint::NamedRule& rule) {
+      return rule.rule->shared || isWantedSomewhere(rule.id);
+    };
+    Diagnostics separate;
+    std::size_t done = 0;
+    for (const lint::Project& project : projects) {
+      say("{} files read, rules on part {} of {}", checkedFiles_, ++done, projects.size());
+      lint::runRules(project, session_.diagnostics(), separate, wanted);
+    }
     acceptEntryPoints();
     keepStrongest(session_.diagnostics());
     dropReadsOfUndefined();
-    const auto separate = [&](const lint::NamedRule& rule) {
-      return !rule.rule->shared && isWantedSomewhere(rule.id);
-    };
-    run(separate);
+    for (Diagnostic& one : separate.all())
+      session_.diagnostics().add(std::move(one));
     for (const lint::Project& project : projects)
-      lint::lintPosted(project, session_.diagnostics(), [&](const lint::NamedRule& rule) {
-        return rule.rule->shared || isWantedSomewhere(rule.id);
-      });
+      lint::lintPosted(project, session_.diagnostics(), wanted);
     reportUnknownSets();
     configs_.reportUnused(options_.paths);
     suppress(projects);

@@ -8,11 +8,17 @@ namespace dotek::ir {
 namespace {
 
 template <class Node> ExpressionPtr make(SourceRange range, Node node) {
-  return std::make_shared<const Expression>(Expression{range, std::move(node)});
+  const auto out = std::make_shared<Expression>();
+  out->range = range;
+  out->node.template emplace<Node>(std::move(node)); // moving a variant costs as much again
+  return out;
 }
 
 template <class Node> ConditionPtr makeCondition(SourceRange range, Node node) {
-  return std::make_shared<const Condition>(Condition{range, std::move(node)});
+  const auto out = std::make_shared<Condition>();
+  out->range = range;
+  out->node.template emplace<Node>(std::move(node));
+  return out;
 }
 
 } // namespace

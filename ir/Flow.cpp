@@ -1,7 +1,7 @@
 #include "ir/Flow.h"
 
 #include <algorithm>
-#include <unordered_map>
+#include <iterator>
 
 namespace dotek::ir {
 namespace {
@@ -21,22 +21,24 @@ bool endsHere(const NcBlock& block) {
 }
 
 template <AnyStatement Statement> ProgramFlow flowIn(const std::vector<Statement>& list) {
-  std::unordered_map<LabelId, std::size_t> places;
+  std::vector<std::size_t> places; // by label; a label is an index and appears once
   for (std::size_t i = 0; i < list.size(); ++i)
-    if (const auto* label = std::get_if<Label>(&list[i].node)) places.try_emplace(label->label, i);
+    if (const auto* label = std::get_if<Label>(&list[i].node)) {
+      if (label->label >= places.size()) places.resize(label->label + std::size_t{1}, list.size());
+      if (places[label->label] == list.size()) places[label->label] = i;
+    }
 
   ProgramFlow flow;
   std::vector<Next>& out = flow.next;
   out.resize(list.size());
   if (std::any_of(list.begin(), list.end(), [](const Statement& each) { return isComputedJump(each); })) {
-    for (const auto& [label, place] : places)
-      flow.labels.push_back(place);
+    std::copy_if(places.begin(), places.end(), std::back_inserter(flow.labels),
+                 [&](std::size_t place) { return place < list.size(); });
     std::sort(flow.labels.begin(), flow.labels.end());
   }
   const auto jump = [&](std::size_t from, LabelId target) {
-    const auto found = places.find(target);
-    if (found == places.end()) return; // verify() tells
-    out[from].add(found->second);
+    if (target >= places.size() || places[target] == list.size()) return; // verify() tells
+    out[from].add(places[target]);
   };
   for (std::size_t i = 0; i < list.size(); ++i) {
     match(

@@ -123,7 +123,12 @@ void eachNode(const ProgramStatement& statement, const std::function<void(const 
 
 void eachNode(const ExpressionPtr& expression, const std::function<void(const Expression&)>& visit) {
   visit(*expression);
-  if (std::holds_alternative<Constant>(expression->node)) return; // most of them
+  // Most are constants, and variables with a written number.
+  if (std::holds_alternative<Constant>(expression->node)) return;
+  if (const auto* variable = std::get_if<MachineVariable>(&expression->node)) {
+    eachNode(variable->number, visit);
+    return;
+  }
   match(
       *expression, [&](const MachineVariable& node) { eachNode(node.number, visit); },
       [&](const Unary& node) { eachNode(node.operand, visit); },

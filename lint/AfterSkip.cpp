@@ -3,7 +3,6 @@
 #include "ir/Walk.h"
 
 #include <algorithm>
-#include <set>
 
 namespace dotek::lint {
 namespace {
@@ -21,19 +20,22 @@ const ir::Word* wordOf(const ir::NcBlock& block, char address) {
 
 std::optional<std::vector<std::size_t>> afterSkip(const NcProgram& nc, std::size_t skip) {
   const auto& body = nc.program.body;
-  std::set<std::size_t> seen;
-  std::vector<std::size_t> open{skip};
+  std::vector<bool> seen(body.size());
+  std::vector<std::size_t> out, open{skip};
   while (!open.empty()) {
     const std::size_t at = open.back();
     open.pop_back();
     if (ir::isComputedJump(body[at])) return std::nullopt;
     for (const std::size_t to : nc.flow().next[at]) {
-      if (to >= body.size() || skipOf(body[to]) != nullptr || !seen.insert(to).second) continue;
-      if (seen.size() > kMostAfter) return std::nullopt;
+      if (to >= body.size() || skipOf(body[to]) != nullptr || seen[to]) continue;
+      seen[to] = true;
+      out.push_back(to);
+      if (out.size() > kMostAfter) return std::nullopt;
       open.push_back(to);
     }
   }
-  return std::vector<std::size_t>(seen.begin(), seen.end());
+  std::sort(out.begin(), out.end());
+  return out;
 }
 
 std::optional<AxisSet> positionAxis(std::uint32_t variable) {
@@ -47,8 +49,9 @@ bool askedAlone(const NcProgram& nc, std::size_t store) {
   const auto variable = storedNumber(body[store]);
   bool asked = false;
   for (std::size_t i = store + 1; variable && i < body.size() && i - store <= kMostAfter; ++i) {
-    bool reads = false;
-    eachRead(body[i], [&](std::uint32_t number, SourceRange) { reads = reads || number == *variable; });
+    const auto all = nc.reads(i);
+    const bool reads =
+        std::any_of(all.begin(), all.end(), [&](const VariableRead& one) { return one.number == *variable; });
     if (reads && ir::conditionOf(body[i]) == nullptr) return false;
     asked = asked || reads;
     if (storedNumber(body[i]) == variable) break;

@@ -9,6 +9,20 @@ const SharedInputs& Analyses::shared(const Project& project) {
   return *shared_;
 }
 
+const NcPrograms& Analyses::programs(const Project& project) {
+  if (programs_) return *programs_;
+  programs_.emplace();
+  eachProgram(project, [&](const ir::Program& program, const macrob::File& file) {
+    programs_->push_back(std::make_unique<const NcProgram>(project, program, file));
+  });
+  return *programs_;
+}
+
+const Lathes& Analyses::lathes(const Project& project) {
+  if (!lathes_) lathes_ = findLathes(project);
+  return *lathes_;
+}
+
 const Probing& Analyses::probing(const Project& project) {
   if (!probing_) probing_.emplace(project);
   return *probing_;
@@ -61,6 +75,14 @@ const std::set<std::uint32_t>& Analyses::called(const macrob::File& file, const 
 
 const SharedInputs& sharedOf(const Project& project) {
   return project.analyses->shared(project);
+}
+
+const NcPrograms& programsOf(const Project& project) {
+  return project.analyses->programs(project);
+}
+
+const Lathes& lathesOf(const Project& project) {
+  return project.analyses->lathes(project);
 }
 
 const std::set<std::uint32_t>& calledIn(const macrob::File& file, const Project& project) {

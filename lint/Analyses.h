@@ -2,7 +2,9 @@
 #pragma once
 
 #include "lint/AskedVariables.h"
+#include "lint/Lathe.h"
 #include "lint/MacroNames.h"
+#include "lint/NcProgram.h"
 #include "lint/Probing.h"
 #include "lint/ProgBlocks.h"
 #include "lint/Shared.h"
@@ -25,6 +27,8 @@ public:
   bool wholeFolder = false;
 
   const SharedInputs& shared(const Project& project);
+  const NcPrograms& programs(const Project& project);
+  const Lathes& lathes(const Project& project);
   const Probing& probing(const Project& project);
   const ToolLengths& toolLengths(const Project& project);
   const Askers& askers(const Project& project);
@@ -43,6 +47,8 @@ public:
 
 private:
   std::optional<SharedInputs> shared_;
+  std::optional<NcPrograms> programs_;
+  std::optional<Lathes> lathes_;
   std::optional<Probing> probing_;
   std::optional<ToolLengths> toolLengths_;
   std::optional<Askers> askers_;

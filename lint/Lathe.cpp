@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 namespace dotek::lint {
 namespace {
@@ -15,8 +16,6 @@ ir::NcWords numbersOf(const macrob::Words& words) {
     stdlib::addWord(out, word.address, macrob::literal(word));
   return out;
 }
-
-} // namespace
 
 std::optional<LatheMark> latheMark(const macrob::File& file) {
   stdlib::LatheSigns signs;
@@ -34,10 +33,12 @@ std::optional<LatheMark> latheMark(const macrob::File& file) {
   return LatheMark{blocks[sign->at]->range, sign->what};
 }
 
-std::set<const macrob::File*> latheFiles(const Project& project) {
-  std::set<const macrob::File*> out;
+} // namespace
+
+Lathes findLathes(const Project& project) {
+  Lathes out;
   for (const NcFile& nc : project.programs)
-    if (latheMark(*nc.file)) out.insert(nc.file);
+    if (const auto mark = latheMark(*nc.file)) out.emplace(nc.file, *mark);
   return out;
 }
 

@@ -33,7 +33,7 @@ std::vector<Passing> LengthFacts::passings(const std::set<std::uint32_t>& own) {
     const auto called = calledProgram(one);
     return called && own.contains(*called);
   };
-  if ((!readsPosition() && !getsPosition()) || std::none_of(body.begin(), body.end(), isOwn)) return out;
+  if (std::none_of(body.begin(), body.end(), isOwn) || (!readsPosition() && !getsPosition())) return out;
   const auto facts = factsFrom(entryFact());
   for (std::size_t i = 0; i < body.size(); ++i) {
     if (!facts[i] || !isOwn(body[i])) continue;
@@ -59,9 +59,10 @@ std::set<std::uint32_t> LengthFacts::stored() const {
     const auto* store = std::get_if<ir::Store>(&statement.node);
     if (store == nullptr) continue;
     auto number = storedNumber(statement);
-    if (!number) number = writes_.single(store->number);
-    const NumberRange all = number ? NumberRange{*number, *number}
-                                   : writes_.range(store->number).value_or(NumberRange{1, kFirstSystem - 1});
+    if (!number) number = nc_.writes().single(store->number);
+    const NumberRange all =
+        number ? NumberRange{*number, *number}
+               : nc_.writes().range(store->number).value_or(NumberRange{1, kFirstSystem - 1});
     for (std::uint32_t one = all.first; one <= std::min(all.last, kFirstSystem - 1); ++one)
       out.insert(one);
   }
@@ -100,7 +101,7 @@ Fact LengthFacts::entryFact() const {
 std::vector<std::optional<Fact>> LengthFacts::factsFrom(const Fact& entry) const {
   const auto& body = program_.body;
   return ir::factsBefore<Fact>(
-      body, entry,
+      body, nc_.flow(), entry,
       [&](std::size_t at, std::size_t, Fact fact) {
         step(body[at], fact);
         return fact;
@@ -148,8 +149,8 @@ bool LengthFacts::readsPosition() const {
   if (reads(numbers_.positions)) return true;
   // #[5060+#9]
   bool out = false;
-  for (const ir::ProgramStatement& statement : program_.body)
-    ir::eachNode(statement, [&](const ir::Expression& one) {
+  for (const std::size_t at : nc_.computedReads())
+    ir::eachNode(program_.body[at], [&](const ir::Expression& one) {
       const auto* variable = std::get_if<ir::MachineVariable>(&one.node);
       const auto first = variable != nullptr ? ir::firstNumber(variable->number) : std::nullopt;
       const auto next = first ? numbers_.positions.lower_bound(*first) : numbers_.positions.end();
@@ -173,19 +174,15 @@ bool LengthFacts::getsPosition() const {
 }
 
 bool LengthFacts::reads(const std::set<std::uint32_t>& numbers) const {
-  for (const ir::ProgramStatement& statement : program_.body) {
-    bool found = false;
-    eachRead(statement,
-             [&](std::uint32_t number, SourceRange) { found = found || numbers.contains(number); });
-    if (found) return true;
-  }
-  return false;
+  const auto all = nc_.reads();
+  return std::any_of(all.begin(), all.end(),
+                     [&](const VariableRead& read) { return numbers.contains(read.number); });
 }
 
 bool LengthFacts::isToolOffset(const std::optional<std::uint32_t>& number,
                                const ir::ExpressionPtr& computed) const {
   if (number) return numbers_.isToolOffset(*number);
-  const auto first = writes_.firstNumber(computed);
+  const auto first = nc_.writes().firstNumber(computed);
   return first && numbers_.isToolOffset(*first + 1);
 }
 
@@ -203,9 +200,9 @@ bool LengthFacts::readsToolOffset(const ir::ExpressionPtr& value, const std::set
 Held LengthFacts::variable(const ir::Expression& expression, const Fact& fact) const {
   const ir::ExpressionPtr& computed = std::get<ir::MachineVariable>(expression.node).number;
   auto number = variableNumber(expression);
-  if (!number) number = writes_.single(computed);
+  if (!number) number = nc_.writes().single(computed);
   if (!number) {
-    const auto first = writes_.firstNumber(computed);
+    const auto first = nc_.writes().firstNumber(computed);
     Held out; // a zero point of a work system holds none
     // #[2000+n]: n is the number of an offset.
     out.wear = first ? numbers_.wearOf(*first + 1) : nullptr;
@@ -294,14 +291,14 @@ Held LengthFacts::held(const ir::ExpressionPtr& value, const Fact& fact) const {
 }
 
 void LengthFacts::step(const ir::ProgramStatement& statement, Fact& fact) const {
-  if (const auto stated = statedOffset(statement, otherCodes_)) fact.offset = *stated;
+  if (const auto stated = statedOffset(statement, nc_.otherCodes())) fact.offset = *stated;
   if (const auto* store = std::get_if<ir::Store>(&statement.node)) {
     auto number = storedNumber(statement);
-    if (!number) number = writes_.single(store->number);
+    if (!number) number = nc_.writes().single(store->number);
     if (number) {
       if (*number < kFirstSystem) fact.values.set(*number, held(store->value, fact));
     } else {
-      const auto range = writes_.range(store->number);
+      const auto range = nc_.writes().range(store->number);
       const Values copied = range ? copiedBeside(*store, *range, fact) : Values{};
       lose(range, fact);
       for (const auto& [one, held] : copied)

@@ -3,10 +3,9 @@
 #pragma once
 
 #include "lint/HeldLength.h"
-#include "lint/IndirectWrites.h"
 #include "lint/LengthNumbers.h"
+#include "lint/NcProgram.h"
 #include "lint/OffsetStates.h"
-#include "lint/Skips.h"
 
 #include <map>
 #include <set>
@@ -29,11 +28,10 @@ using LeftBehind = std::map<std::uint32_t, Values>;
 
 class LengthFacts {
 public:
-  LengthFacts(const ir::Program& program, const Project& project, const LengthNumbers& numbers,
-              const std::set<std::uint32_t>& switching, std::optional<CalledUnder> called,
-              const LeftBehind* left)
-      : program_(program), project_(project), numbers_(numbers), switching_(switching), called_(called),
-        left_(left), writes_(program), otherCodes_(codesOfOtherGroups(program)) {}
+  LengthFacts(const NcProgram& nc, const LengthNumbers& numbers, const std::set<std::uint32_t>& switching,
+              std::optional<CalledUnder> called, const LeftBehind* left)
+      : nc_(nc), program_(nc.program), project_(nc.project), numbers_(numbers), switching_(switching),
+        called_(called), left_(left) {}
 
   // Calls of `own` programs that pass a position.
   std::vector<Passing> passings(const std::set<std::uint32_t>& own);
@@ -68,14 +66,13 @@ protected:
   // What is written by a computed number may have set any variable of the range.
   static void lose(const std::optional<NumberRange>& range, Fact& fact);
 
+  const NcProgram& nc_;
   const ir::Program& program_;
   const Project& project_;
   const LengthNumbers& numbers_;
   const std::set<std::uint32_t>& switching_;
   std::optional<CalledUnder> called_; // by programs of the files
   const LeftBehind* left_;            // by programs that it calls; nullptr: nothing is known
-  IndirectWrites writes_;
-  std::set<std::uint32_t> otherCodes_; // variables that hold codes of other groups
 };
 
 } // namespace dotek::lint

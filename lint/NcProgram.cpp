@@ -1,5 +1,7 @@
 #include "lint/NcProgram.h"
 
+#include "lint/OffsetStates.h"
+
 namespace dotek::lint {
 
 const ir::ProgramFlow& NcProgram::flow() const {
@@ -26,16 +28,46 @@ const std::vector<std::optional<Machining>>& NcProgram::machining() const {
 }
 
 std::span<const VariableRead> NcProgram::reads(std::size_t statement) const {
-  if (!reads_) {
-    Reads& reads = reads_.emplace();
-    reads.ends.reserve(program.body.size());
-    for (const ir::ProgramStatement& one : program.body) {
-      eachRead(one, [&](std::uint32_t number, SourceRange range) { reads.all.push_back({number, range}); });
-      reads.ends.push_back(reads.all.size());
-    }
+  const Reads& reads = allReads();
+  const std::size_t begin = statement == 0 ? 0 : reads.ends[statement - 1];
+  return std::span(reads.all).subspan(begin, reads.ends[statement] - begin);
+}
+
+const NcProgram::Reads& NcProgram::allReads() const {
+  if (reads_) return *reads_;
+  Reads& reads = reads_.emplace();
+  reads.ends.reserve(program.body.size());
+  reads.all.reserve(program.body.size() * 2);
+  for (std::size_t i = 0; i < program.body.size(); ++i) {
+    bool computed = false;
+    eachRead(
+        program.body[i],
+        [&](std::uint32_t number, SourceRange range) {
+          reads.all.push_back({number, range});
+        },
+        [&](const ir::MachineVariable&) { computed = true; });
+    reads.ends.push_back(reads.all.size());
+    if (computed) reads.computed.push_back(i);
   }
-  const std::size_t begin = statement == 0 ? 0 : reads_->ends[statement - 1];
-  return std::span(reads_->all).subspan(begin, reads_->ends[statement] - begin);
+  return reads;
+}
+
+const std::vector<std::size_t>& NcProgram::skips() const {
+  if (skips_) return *skips_;
+  std::vector<std::size_t>& out = skips_.emplace();
+  for (std::size_t i = 0; i < program.body.size(); ++i)
+    if (skipOf(program.body[i]) != nullptr) out.push_back(i);
+  return out;
+}
+
+const IndirectWrites& NcProgram::writes() const {
+  if (!writes_) writes_.emplace(program);
+  return *writes_;
+}
+
+const std::set<std::uint32_t>& NcProgram::otherCodes() const {
+  if (!otherCodes_) otherCodes_ = codesOfOtherGroups(program);
+  return *otherCodes_;
 }
 
 } // namespace dotek::lint

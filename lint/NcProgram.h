@@ -1,10 +1,13 @@
 // One program of an NC file as rules look at it, with what several of them ask of it.
 #pragma once
 
+#include "lint/IndirectWrites.h"
 #include "lint/Machining.h"
 #include "lint/Skips.h"
 
+#include <memory>
 #include <optional>
+#include <set>
 #include <vector>
 
 namespace dotek::lint {
@@ -32,16 +35,35 @@ public:
   const std::vector<std::optional<Machining>>& machining() const;
   // As eachRead() says, of the statement with this index.
   std::span<const VariableRead> reads(std::size_t statement) const;
+  // Those of all statements, one after the other.
+  std::span<const VariableRead> reads() const { return allReads().all; }
+  // Statements that read a variable whose number is computed, ascending.
+  std::span<const std::size_t> computedReads() const { return allReads().computed; }
+  // Statements that are a G31, ascending.
+  const std::vector<std::size_t>& skips() const;
+  const IndirectWrites& writes() const;
+  // As codesOfOtherGroups() says.
+  const std::set<std::uint32_t>& otherCodes() const;
 
 private:
   struct Reads {
     std::vector<VariableRead> all;
     std::vector<std::size_t> ends; // in `all`, by statement
+    std::vector<std::size_t> computed;
   };
+  const Reads& allReads() const;
+
   mutable std::optional<ir::ProgramFlow> flow_;
   mutable std::optional<std::vector<std::optional<DistanceMode>>> modes_;
   mutable std::optional<std::vector<std::optional<Machining>>> machining_;
   mutable std::optional<Reads> reads_;
+  mutable std::optional<std::vector<std::size_t>> skips_;
+  mutable std::optional<IndirectWrites> writes_;
+  mutable std::optional<std::set<std::uint32_t>> otherCodes_;
 };
+
+using NcPrograms = std::vector<std::unique_ptr<const NcProgram>>;
+// Those that eachProgram() visits, made once a project: rules share what is computed.
+const NcPrograms& programsOf(const Project& project);
 
 } // namespace dotek::lint

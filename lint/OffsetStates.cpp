@@ -81,16 +81,34 @@ std::optional<Offset> statedOffset(const ir::ProgramStatement& statement,
   return out;
 }
 
+namespace {
+
+// A G code that is computed, or one of those of the offset: whether it switches is worth asking.
+bool maySwitch(const ir::Program& program) {
+  return std::any_of(program.body.begin(), program.body.end(), [](const ir::ProgramStatement& statement) {
+    const auto* block = std::get_if<ir::NcBlock>(&statement.node);
+    return block != nullptr &&
+           std::any_of(block->words.begin(), block->words.end(), [](const ir::Word& word) {
+             const double* code = word.address == 'G' ? ir::constantValue(word.value) : nullptr;
+             return word.address == 'G' && (code == nullptr || isOffsetCode(*code));
+           });
+  });
+}
+
+} // namespace
+
 std::set<std::uint32_t> switchingPrograms(const Project& project) {
   std::set<std::uint32_t> out;
   for (const NcFile& nc : project.programs)
     if (nc.lowered)
-      for (const ir::Program& program : nc.lowered->programs)
+      for (const ir::Program& program : nc.lowered->programs) {
+        if (!maySwitch(program)) continue;
         if (const auto others = codesOfOtherGroups(program);
             std::any_of(program.body.begin(), program.body.end(), [&](const ir::ProgramStatement& one) {
               return statedOffset(one, others).has_value();
             }))
           out.insert(static_cast<std::uint32_t>(program.number));
+      }
   return out;
 }
 

@@ -83,7 +83,7 @@ void lintOne(const Project& project, const Joined& joined, Diagnostics& diagnost
   one.programs.push_back({&tree, std::make_shared<const ir::ProgramFile>(std::move(*lowered))});
   one.analyses = std::make_shared<Analyses>();
   found = Diagnostics();
-  runRules(one, found, wanted);
+  runRules(one, found, found, wanted);
   const SourceFile& file = sources.file(id);
   for (Diagnostic finding : found.all()) {
     finding.range = placeIn(lines, finding.range, file);

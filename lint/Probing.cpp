@@ -17,6 +17,14 @@ constexpr std::size_t kMostStatements = 20000;
 constexpr std::string_view kOptional = "BEFHMQRTUVW";
 constexpr std::uint32_t kPack = 100; // macros of a pack share their hundred: 9800 to 9899
 
+// The number of a variable that is written out; a half is rounded up.
+std::optional<std::uint32_t> writtenNumber(const ir::ExpressionPtr& number) {
+  const double* value = ir::constantValue(number);
+  if (value == nullptr || !(*value >= 0 && *value <= 1e6)) return std::nullopt;
+  const auto whole = static_cast<std::uint32_t>(*value);
+  return *value - whole >= 0.5 ? whole + 1 : whole;
+}
+
 bool inPack(const Project& project, std::uint32_t program) {
   for (const stdlib::MacroSet& set : project.macroSets)
     for (const stdlib::MacroSignature& signature : set.signatures)
@@ -63,10 +71,11 @@ Probing::Probing(const Project& project) : project_(project) {
   if (project.control) return;
   eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
     for (const ir::ProgramStatement& statement : program.body) {
+      if (guessCodes_) return;
       const auto* block = std::get_if<ir::NcBlock>(&statement.node);
       const ProbeStep::Kind kind = step(statement).kind;
-      guessCodes_ = guessCodes_ || (block != nullptr && hasCode(*block, 'G', 31)) ||
-                    kind == ProbeStep::Kind::Protected || kind == ProbeStep::Kind::Measure;
+      guessCodes_ = (block != nullptr && hasCode(*block, 'G', 31)) || kind == ProbeStep::Kind::Protected ||
+                    kind == ProbeStep::Kind::Measure;
     }
   });
   // The blocks of a post are those of the control of its form, or of a probing cycle anyway.
@@ -293,22 +302,29 @@ bool hasCode(const ir::NcBlock& block, char address, double code) {
 
 std::optional<std::uint32_t> variableNumber(const ir::Expression& expression) {
   const auto* variable = std::get_if<ir::MachineVariable>(&expression.node);
-  const double* number = variable == nullptr ? nullptr : ir::constantValue(variable->number);
-  if (number == nullptr || *number < 0 || *number > 1e6) return std::nullopt;
-  return static_cast<std::uint32_t>(std::lround(*number));
+  return variable == nullptr ? std::nullopt : writtenNumber(variable->number);
 }
 
 std::optional<std::uint32_t> storedNumber(const ir::ProgramStatement& statement) {
   const auto* store = std::get_if<ir::Store>(&statement.node);
-  const double* number = store == nullptr ? nullptr : ir::constantValue(store->number);
-  if (number == nullptr || *number < 0 || *number > 1e6) return std::nullopt;
-  return static_cast<std::uint32_t>(std::lround(*number));
+  return store == nullptr ? std::nullopt : writtenNumber(store->number);
 }
 
 void eachRead(const ir::ProgramStatement& statement,
               const std::function<void(std::uint32_t number, SourceRange range)>& visit) {
+  eachRead(statement, visit, [](const ir::MachineVariable&) {});
+}
+
+void eachRead(const ir::ProgramStatement& statement,
+              const std::function<void(std::uint32_t number, SourceRange range)>& visit,
+              const std::function<void(const ir::MachineVariable&)>& computed) {
   ir::eachNode(statement, [&](const ir::Expression& node) {
-    if (const auto number = variableNumber(node)) visit(*number, node.range);
+    const auto* variable = std::get_if<ir::MachineVariable>(&node.node);
+    if (variable == nullptr) return;
+    if (const auto number = writtenNumber(variable->number))
+      visit(*number, node.range);
+    else
+      computed(*variable);
   });
   if (const auto* print = std::get_if<ir::Print>(&statement.node))
     for (const ir::PrintPiece& piece : print->pieces)

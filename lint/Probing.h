@@ -99,5 +99,9 @@ std::optional<std::uint32_t> storedNumber(const ir::ProgramStatement& statement)
 // Numbers of the variables that the statement reads, with their places.
 void eachRead(const ir::ProgramStatement& statement,
               const std::function<void(std::uint32_t number, SourceRange range)>& visit);
+// As above, and those whose number is computed.
+void eachRead(const ir::ProgramStatement& statement,
+              const std::function<void(std::uint32_t number, SourceRange range)>& visit,
+              const std::function<void(const ir::MachineVariable&)>& computed);
 
 } // namespace dotek::lint

@@ -14,15 +14,13 @@ constexpr std::array<double, 12> kNoMotion = {4, 10, 22, 50.1, 51, 51.1, 52, 68,
 // Codes whose axis words are another motion than a plain move.
 constexpr std::array<double, 6> kOtherMotion = {2, 3, 28, 30, 31, 53};
 
-template <std::size_t N> bool hasAnyCode(const ir::NcBlock& block, const std::array<double, N>& codes) {
-  return std::any_of(codes.begin(), codes.end(), [&](double code) { return hasCode(block, 'G', code); });
-}
-
 } // namespace
 
 AxisSet axesOf(const ir::NcBlock& block) {
-  return static_cast<AxisSet>((hasWord(block, 'X') ? 1 : 0) | (hasWord(block, 'Y') ? 2 : 0) |
-                              (hasWord(block, 'Z') ? 4 : 0));
+  unsigned out = 0;
+  for (const ir::Word& word : block.words)
+    if (word.address >= 'X' && word.address <= 'Z') out |= 1U << (word.address - 'X');
+  return static_cast<AxisSet>(out);
 }
 
 const ir::NcBlock* skipOf(const ir::ProgramStatement& statement) {
@@ -31,11 +29,11 @@ const ir::NcBlock* skipOf(const ir::ProgramStatement& statement) {
 }
 
 bool moves(const ir::NcBlock& block) {
-  return axesOf(block) != 0 && !hasAnyCode(block, kNoMotion);
+  return axesOf(block) != 0 && !hasAnyCode(block, 'G', kNoMotion);
 }
 
 bool isPlainMove(const ir::NcBlock& block) {
-  return moves(block) && !hasAnyCode(block, kOtherMotion);
+  return moves(block) && !hasAnyCode(block, 'G', kOtherMotion);
 }
 
 bool isPlainMove(const ir::ProgramStatement& statement) {

@@ -3,6 +3,8 @@
 
 #include "lint/Probing.h"
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -12,6 +14,15 @@ namespace dotek::lint {
 // Axes by bit: X 1, Y 2, Z 4.
 using AxisSet = std::uint8_t;
 AxisSet axesOf(const ir::NcBlock& block);
+
+// One of these codes, written out, is in the block.
+template <std::size_t N>
+bool hasAnyCode(const ir::NcBlock& block, char address, const std::array<double, N>& codes) {
+  return std::any_of(block.words.begin(), block.words.end(), [&](const ir::Word& word) {
+    const double* value = word.address == address ? ir::constantValue(word.value) : nullptr;
+    return value != nullptr && std::find(codes.begin(), codes.end(), *value) != codes.end();
+  });
+}
 
 // The block of a G31; nullptr: another statement.
 const ir::NcBlock* skipOf(const ir::ProgramStatement& statement);

@@ -19,7 +19,7 @@ constexpr double kMostTolerance = 10; // mm; more is no tolerance of a contact
 // Canned cycles, whose R is a coordinate under G90 as Z is.
 bool isCannedCycle(const ir::NcBlock& block) {
   constexpr std::array<double, 12> kCycles = {73, 74, 76, 81, 82, 83, 84, 85, 86, 87, 88, 89};
-  return std::any_of(kCycles.begin(), kCycles.end(), [&](double code) { return hasCode(block, 'G', code); });
+  return hasAnyCode(block, 'G', kCycles);
 }
 
 class Search : public LengthFacts {
@@ -57,7 +57,7 @@ private:
     const auto facts = factsFrom(entry);
     for (std::size_t i = 0; i < body.size(); ++i)
       if (facts[i]) noteHeights(body[i], *facts[i]);
-    const auto modes = distanceModes(body, ir::flowOf(body));
+    const auto& modes = nc_.modes();
     for (std::size_t i = 0; i < body.size(); ++i) {
       if (!facts[i]) continue;
       const auto mode =
@@ -189,7 +189,7 @@ private:
   }
 
   void judge(const ir::ProgramStatement& statement, Fact fact) {
-    if (const auto stated = statedOffset(statement, otherCodes_)) fact.offset = *stated;
+    if (const auto stated = statedOffset(statement, nc_.otherCodes())) fact.offset = *stated;
     ir::match(
         statement, [&](const ir::NcBlock& block) { judgeBlock(statement, block, fact); },
         [&](const ir::Call&) {
@@ -231,7 +231,7 @@ private:
   // A write of a variable that is the Z of a zero.
   void judgeStore(const ir::ProgramStatement& statement, const ir::Store& store, const Fact& fact) {
     const auto number = storedNumber(statement);
-    const auto first = number ? number : writes_.firstNumber(store.number);
+    const auto first = number ? number : nc_.writes().firstNumber(store.number);
     const bool zero =
         first && (number ? numbers_.zeroes.contains(*first)
                          : numbers_.zeroes.contains(*first) || numbers_.zeroes.contains(*first + 20));
@@ -272,7 +272,7 @@ private:
   }
 
   bool isWear(const std::optional<std::uint32_t>& number, const ir::ExpressionPtr& computed) const {
-    const auto first = number ? number : writes_.firstNumber(computed);
+    const auto first = number ? number : nc_.writes().firstNumber(computed);
     return first && numbers_.wearOf(number ? *number : *first + 1) != nullptr;
   }
 
@@ -336,37 +336,35 @@ struct ToolLengths::Known {
   explicit Known(const Project& of)
       : project(of), numbers(of), switching(switchingPrograms(of)), called(calledUnder(of, switching)) {
     std::map<std::uint32_t, std::size_t> count;
-    eachProgram(project,
-                [&](const ir::Program& program, const macrob::File&) { ++count[numberOf(program)]; });
+    const NcPrograms& programs = programsOf(project);
+    for (const auto& nc : programs)
+      ++count[numberOf(*nc)];
     for (const auto& [number, times] : count)
       if (number != 0 && times == 1) own.insert(number);
     const auto stored = storedByCalled();
-    eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
-      const auto found = stored.find(numberOf(program));
+    for (const auto& nc : programs) {
+      const auto found = stored.find(numberOf(*nc));
       if (found != stored.end() && !found->second.empty())
-        left.emplace(found->first, search(program, nullptr).leftBehind(found->second));
-    });
-    eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
-      for (Passing& one : search(program, &left).passings(own))
+        left.emplace(found->first, search(*nc, nullptr).leftBehind(found->second));
+    }
+    for (const auto& nc : programs)
+      for (Passing& one : search(*nc, &left).passings(own))
         passed[one.callee].push_back(std::move(one));
-    });
   }
 
-  static std::uint32_t numberOf(const ir::Program& program) {
-    return static_cast<std::uint32_t>(program.number);
-  }
+  static std::uint32_t numberOf(const NcProgram& nc) { return static_cast<std::uint32_t>(nc.program.number); }
 
   // What programs that are called may set, by themselves and by what they call.
   std::map<std::uint32_t, std::set<std::uint32_t>> storedByCalled() const {
     std::map<std::uint32_t, std::set<std::uint32_t>> out;
     std::map<std::uint32_t, std::set<std::uint32_t>> calls;
-    eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
-      const std::uint32_t number = numberOf(program);
-      if (!own.contains(number) || !called.contains(number)) return;
-      out[number] = search(program, nullptr).stored();
-      for (const ir::ProgramStatement& statement : program.body)
+    for (const auto& nc : programsOf(project)) {
+      const std::uint32_t number = numberOf(*nc);
+      if (!own.contains(number) || !called.contains(number)) continue;
+      out[number] = search(*nc, nullptr).stored();
+      for (const ir::ProgramStatement& statement : nc->program.body)
         if (const auto callee = calledProgram(statement)) calls[number].insert(*callee);
-    });
+    }
     for (bool changed = true; changed;) {
       changed = false;
       for (const auto& [caller, callees] : calls)
@@ -380,10 +378,10 @@ struct ToolLengths::Known {
     return out;
   }
 
-  Search search(const ir::Program& program, const LeftBehind* leftBehind) const {
-    const auto under = called.find(numberOf(program));
-    return Search(program, project, numbers, switching,
-                  under == called.end() ? std::nullopt : std::optional(under->second), leftBehind);
+  Search search(const NcProgram& nc, const LeftBehind* leftBehind) const {
+    const auto under = called.find(numberOf(nc));
+    return Search(nc, numbers, switching, under == called.end() ? std::nullopt : std::optional(under->second),
+                  leftBehind);
   }
 
   const Project& project;
@@ -399,26 +397,26 @@ ToolLengths::ToolLengths(const Project& project) : known_(std::make_unique<const
 
 ToolLengths::~ToolLengths() = default;
 
-std::vector<LengthLeftIn> ToolLengths::leftIn(const ir::Program& program) const {
-  const std::uint32_t number = Known::numberOf(program);
+std::vector<LengthLeftIn> ToolLengths::leftIn(const NcProgram& nc) const {
+  const std::uint32_t number = Known::numberOf(nc);
   const auto passed = known_->own.contains(number) ? known_->passed.find(number) : known_->passed.end();
   std::set<std::uint32_t> given;
   if (passed != known_->passed.end())
     for (const Passing& one : passed->second)
       for (const auto& [variable, held] : one.values)
         if (held.lengths != 0) given.insert(variable);
-  std::vector<LengthLeftIn> out = known_->search(program, &known_->left).run(given);
+  std::vector<LengthLeftIn> out = known_->search(nc, &known_->left).run(given);
   if (passed == known_->passed.end()) return out;
   // More calls of one program pass what others do, and each is a walk through it.
   constexpr std::size_t kMostCalls = 8;
   for (std::size_t i = 0; i < std::min(kMostCalls, passed->second.size()); ++i)
-    for (LengthLeftIn& found : known_->search(program, &known_->left).runPassed(passed->second[i]))
+    for (LengthLeftIn& found : known_->search(nc, &known_->left).runPassed(passed->second[i]))
       out.push_back(std::move(found));
   return out;
 }
 
-bool ToolLengths::measuresTool(const ir::Program& program) const {
-  return known_->search(program, nullptr).measuresTool();
+bool ToolLengths::measuresTool(const NcProgram& nc) const {
+  return known_->search(nc, nullptr).measuresTool();
 }
 
 const std::set<std::uint32_t>& ToolLengths::switching() const {

@@ -14,6 +14,8 @@
 
 namespace dotek::lint {
 
+class NcProgram;
+
 // A coordinate that is computed from a position without its length taken off, or a position that is held
 // against one.
 struct LengthLeftIn {
@@ -51,10 +53,10 @@ public:
   // length in its positions, under G49, and where something else that may be the length is taken off: a
   // common variable that the program does not set, a tool offset. A position may come from the caller, or
   // from a program that is called, one call away and in the files.
-  std::vector<LengthLeftIn> leftIn(const ir::Program& program) const;
+  std::vector<LengthLeftIn> leftIn(const NcProgram& nc) const;
 
   // It gives an entry of the table of tools a new value: it runs with a tool that has none in force.
-  bool measuresTool(const ir::Program& program) const;
+  bool measuresTool(const NcProgram& nc) const;
   // Whether programs of the files turn the offset on or off, and how they are called (OffsetStates.h).
   const std::set<std::uint32_t>& switching() const;
   const std::map<std::uint32_t, CalledUnder>& called() const;

@@ -13,6 +13,8 @@ CheckedProgram::CheckedProgram(const Program& parsed, const stdlib::Control* mac
       sources(files), flow(flowOf(parsed, files)) {
   // A program of a CAM is numbers for the most part; no check looks at a short one by itself.
   constexpr std::size_t kShort = 8;
+  constexpr std::size_t kUsual = 4; // of a block
+  parts.reserve(program.blocks.size() * kUsual);
   for (const Block& block : program.blocks) {
     walk(block, [&](const Expression& expression, bool subscript) {
       const auto* number = std::get_if<nc::Number>(&expression.node);

@@ -285,12 +285,11 @@ constexpr std::uint32_t kFirstCommonNumber = 100;
 // What a program writes with `#`, to find the place where it is lost.
 class Hashes {
 public:
-  explicit Hashes(const CheckedProgram& input) {
-    for (const CheckedProgram::Part& part : input.parts) {
-      if (const auto number = variableNumber(*part.expression)) used_.insert(*number);
+  // `used`: its variables.
+  Hashes(const CheckedProgram& input, const std::set<std::uint32_t>& used) : used_(used) {
+    for (const CheckedProgram::Part& part : input.parts)
       if (std::holds_alternative<nc::Operation>(part.expression->node) && isShort(part.expression->range))
         operations_.insert(printWithoutBrackets(*part.expression));
-    }
     // Variables that hold the number of another one: #16 of #[#16], #[#16+1].
     std::set<std::uint32_t> pointers;
     const auto addPointers = [&](const Expression& subscript) {
@@ -306,24 +305,13 @@ public:
       if (const auto written = writtenBy(one); written && pointers.contains(written->number))
         addTerms(*one.value);
     });
-    eachWord(input, [&](const nc::Word& word) {
-      if (const auto number = variableNumber(*word.value)) words_.emplace(word.address, *number);
-    });
-  }
-
-  template <class Visit> static void eachWord(const CheckedProgram& input, const Visit& visit) {
-    for (const Block& block : input.program.blocks)
-      if (const auto* words = std::get_if<Words>(&block.body))
-        for (const nc::Word& word : words->words)
-          if (word.value != nullptr) visit(word);
   }
 
   // 100*COS[#2] where the program has #100*COS[#2]
   void operand(const nc::Operation& operation, bool onLeft, Report& report) const {
     const Expression& side = onLeft ? *operation.left : *operation.right;
+    if (!isVariableOf(used_, side) || numbers_.contains(&side)) return;
     const auto* number = std::get_if<nc::Number>(&side.node);
-    if (number == nullptr || number->point || side.brackets > 0 || numbers_.contains(&side)) return;
-    if (!(number->value < 1e6) || !used_.contains(static_cast<std::uint32_t>(number->value))) return;
     if (!isShort({side.range.file, operation.left->range.begin, operation.right->range.end})) return;
     // A number of units, `5*#129`: the other side is a factor that holds for the whole pack.
     const Expression& other = onLeft ? *operation.right : *operation.left;
@@ -337,18 +325,13 @@ public:
     if (operations_.contains(text)) tell(side.range, number->digits, text, report);
   }
 
-  // F9 where the program has F#9
-  void word(const nc::Word& word, Report& report) const {
-    if (ir::isAddressIn(ir::kWholeAddresses, word.address)) return;
-    const auto* number = std::get_if<nc::Number>(&word.value->node);
-    if (number == nullptr || number->point || number->value < 1 || number->value > 999) return;
-    if (words_.contains({word.address, static_cast<std::uint32_t>(number->value)}))
-      tell(word.range, number->digits, fmt::format("{}#{}", word.address, number->digits), report);
+  // The number alone is that of one of these variables.
+  static bool isVariableOf(const std::set<std::uint32_t>& used, const Expression& side) {
+    const auto* number = std::get_if<nc::Number>(&side.node);
+    return number != nullptr && !number->point && side.brackets == 0 && number->value < 1e6 &&
+           used.contains(static_cast<std::uint32_t>(number->value));
   }
 
-  bool hasWords() const { return !words_.empty(); }
-
-private:
   static void tell(SourceRange range, const std::string& digits, const std::string& text, Report& report) {
     report.at(range,
               "{0} is a number here, and the program has `{1}` elsewhere; the control calculates with {0} "
@@ -357,6 +340,7 @@ private:
               digits, text);
   }
 
+private:
   // Terms of a number of a variable that is computed first: `#16=5221+[#4-54]*20`.
   void addTerms(const Expression& sum) {
     const auto* operation = std::get_if<nc::Operation>(&sum.node);
@@ -368,11 +352,33 @@ private:
     }
   }
 
-  std::set<std::uint32_t> used_;
+  const std::set<std::uint32_t>& used_;
   std::set<const Expression*> numbers_;
   std::set<std::string> operations_;
-  std::set<std::pair<char, std::uint32_t>> words_;
 };
+
+template <class Visit> void eachWord(const CheckedProgram& input, const Visit& visit) {
+  for (const Block& block : input.program.blocks)
+    if (const auto* words = std::get_if<Words>(&block.body))
+      for (const nc::Word& word : words->words)
+        if (word.value != nullptr) visit(word);
+}
+
+// F9 where the program has F#9
+void hashMissingInWords(const CheckedProgram& input, Report& report) {
+  std::set<std::pair<char, std::uint32_t>> written;
+  eachWord(input, [&](const nc::Word& word) {
+    if (const auto number = variableNumber(*word.value)) written.emplace(word.address, *number);
+  });
+  if (written.empty()) return;
+  eachWord(input, [&](const nc::Word& word) {
+    if (ir::isAddressIn(ir::kWholeAddresses, word.address)) return;
+    const auto* number = std::get_if<nc::Number>(&word.value->node);
+    if (number == nullptr || number->point || number->value < 1 || number->value > 999) return;
+    if (written.contains({word.address, static_cast<std::uint32_t>(number->value)}))
+      Hashes::tell(word.range, number->digits, fmt::format("{}#{}", word.address, number->digits), report);
+  });
+}
 
 std::optional<std::uint32_t> offsetWritten(const Block& block) {
   const auto* assignment = std::get_if<nc::Assignment>(&block.body);
@@ -383,14 +389,20 @@ std::optional<std::uint32_t> offsetWritten(const Block& block) {
 } // namespace
 
 void hashMissing(const CheckedProgram& input, Report& report) {
-  const Hashes hashes(input);
+  std::set<std::uint32_t> used;
+  for (const CheckedProgram::Part& part : input.parts)
+    if (const auto number = variableNumber(*part.expression)) used.insert(*number);
+  std::optional<Hashes> hashes; // most programs need none
   for (const CheckedProgram::Part& part : input.parts) {
     const auto* operation = std::get_if<nc::Operation>(&part.expression->node);
     if (operation == nullptr || part.subscript) continue;
-    hashes.operand(*operation, true, report);
-    hashes.operand(*operation, false, report);
+    for (const bool onLeft : {true, false}) {
+      if (!Hashes::isVariableOf(used, onLeft ? *operation->left : *operation->right)) continue;
+      if (!hashes) hashes.emplace(input, used);
+      hashes->operand(*operation, onLeft, report);
+    }
   }
-  if (hashes.hasWords()) Hashes::eachWord(input, [&](const nc::Word& word) { hashes.word(word, report); });
+  hashMissingInWords(input, report);
 }
 
 // ---- offsets

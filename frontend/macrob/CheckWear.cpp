@@ -4,7 +4,6 @@
 #include "frontend/macrob/Check.h"
 
 #include <algorithm>
-#include <cctype>
 #include <map>
 #include <utility>
 
@@ -12,16 +11,33 @@ namespace dotek::frontend::macrob {
 
 namespace {
 
+char capital(char c) {
+  return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+}
+
 std::string upper(std::string_view text) {
   std::string out(text);
-  std::transform(out.begin(), out.end(), out.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  std::transform(out.begin(), out.end(), out.begin(), capital);
   return out;
 }
 
 bool has(std::string_view text, std::initializer_list<std::string_view> words) {
   return std::any_of(words.begin(), words.end(),
                      [&](std::string_view word) { return text.find(word) != std::string_view::npos; });
+}
+
+// One of the words, capitals, is in a comment of the program.
+bool isInComment(const Program& program, std::initializer_list<std::string_view> words) {
+  std::string text;
+  const auto isIn = [&](const Comment& comment) {
+    text.resize(comment.text.size());
+    std::transform(comment.text.begin(), comment.text.end(), text.begin(), capital);
+    return has(text, words);
+  };
+  return std::any_of(program.comments.begin(), program.comments.end(), isIn) ||
+         std::any_of(program.blocks.begin(), program.blocks.end(), [&](const Block& block) {
+           return std::any_of(block.comments.begin(), block.comments.end(), isIn);
+         });
 }
 
 // The L of a G10 that sets the length of a tool, 10, or its wear, 11; nullptr: another block.
@@ -106,14 +122,8 @@ void wearInGeometry(const CheckedProgram& input, Report& report) {
     return in(number, geometry) || (control != nullptr && control->variables.toolGeometryToo &&
                                     in(number, *control->variables.toolGeometryToo));
   };
-  std::string all;
-  for (const Comment& comment : input.program.comments)
-    all += upper(comment.text) + "\n";
-  for (const Block& block : input.program.blocks)
-    for (const Comment& comment : block.comments)
-      all += upper(comment.text) + "\n";
-  if (!has(all, {"WEAR", "VERSCHLEI", "OPOT"})) return;
-  const bool both = has(all, {"GEOM", "GEO ", "DELK"});
+  if (!isInComment(input.program, {"WEAR", "VERSCHLEI", "OPOT"})) return;
+  const bool both = isInComment(input.program, {"GEOM", "GEO ", "DELK"});
   const Addresses addresses(input.program.blocks);
   std::vector<std::pair<SourceRange, const nc::Word*>> writes; // with the L of a G10
   bool second = false;                                         // the first of them is by the second number

@@ -176,10 +176,13 @@ private:
     return firstEnd - 1;
   }
 
-  // The first of the brackets from `from` on; `end` where there is none before it.
+  // The first of one or two brackets from `from` on; `end` where there is none before it.
   std::size_t bracketIn(std::string_view brackets, std::size_t from, std::size_t end) {
-    const std::size_t at = std::string_view(bytes()).substr(from, end - from).find_first_of(brackets);
-    return at == std::string_view::npos ? end : from + at;
+    const auto isOne = [&](char c) { return c == brackets.front() || c == brackets.back(); };
+    const auto first = bytes().begin();
+    return static_cast<std::size_t>(std::find_if(first + static_cast<std::ptrdiff_t>(from),
+                                                 first + static_cast<std::ptrdiff_t>(end), isOne) -
+                                    first);
   }
 
   std::size_t brokenComment(Line& line, std::size_t open, std::size_t firstEnd, std::size_t close) {

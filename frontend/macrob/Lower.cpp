@@ -217,6 +217,7 @@ private:
     const std::optional<Call> call = callOf(words);
     if (!call) {
       std::vector<const nc::Word*> all;
+      all.reserve(words.words.size());
       for (const nc::Word& word : words.words)
         all.push_back(&word);
       plain(all);
@@ -254,6 +255,7 @@ private:
   void plain(const std::vector<const nc::Word*>& words) {
     if (words.empty()) return;
     ir::NcBlock block;
+    block.words.reserve(words.size());
     for (const nc::Word* word : words)
       block.words.push_back({word->address, lowerWordValue(*word->value, Place::Word), word->range});
     add(std::move(block));

@@ -2,6 +2,7 @@
 
 #include "frontend/macrob/Calls.h"
 #include "frontend/macrob/Walk.h"
+#include "ir/Flow.h"
 
 #include <algorithm>
 #include <cmath>
@@ -244,7 +245,7 @@ namespace {
 // Blocks that may run after each block; `blocks.size()`: the program ends there. All computed jumps lead to
 // the same ones.
 struct Successors {
-  std::vector<std::vector<std::size_t>> next;
+  std::vector<ir::Next> next;
   std::vector<bool> computed;
   std::vector<std::size_t> numbered; // blocks with a number
 };
@@ -258,7 +259,7 @@ Successors successorsOf(const Program& program) {
   for (const auto& [number, places] : numbered)
     successors.numbered.insert(successors.numbered.end(), places.begin(), places.end());
   successors.computed.resize(count);
-  std::vector<std::vector<std::size_t>>& out = successors.next;
+  std::vector<ir::Next>& out = successors.next;
   out.resize(count);
   std::vector<std::size_t> open;
   for (std::size_t i = 0; i < count; ++i) {
@@ -266,7 +267,7 @@ Successors successorsOf(const Program& program) {
     bool falls = true;
     const auto* words = std::get_if<Words>(&block.body);
     if (words != nullptr && (endsProgram(*words) || findCode(*words, 'M', 99) != nullptr)) {
-      out[i].push_back(count);
+      out[i].add(count);
       falls = block.blockDelete.has_value();
     }
     if (const Goto* jump = gotoOf(block)) {
@@ -276,7 +277,7 @@ Successors successorsOf(const Program& program) {
                                                           : numbered.end();
         if (found != numbered.end()) {
           const auto later = std::upper_bound(found->second.begin(), found->second.end(), i);
-          out[i].push_back(later != found->second.end() ? *later : found->second.front());
+          out[i].add(later != found->second.end() ? *later : found->second.front());
         }
       } else {
         successors.computed[i] = true;
@@ -287,11 +288,11 @@ Successors successorsOf(const Program& program) {
       // A loop without a condition is left by jumps alone.
       const std::size_t begin = open.back();
       open.pop_back();
-      out[i].push_back(begin);
+      out[i].add(begin);
       falls = false;
-      if (std::get<Do>(program.blocks[begin].body).condition != nullptr) out[begin].push_back(i + 1);
+      if (std::get<Do>(program.blocks[begin].body).condition != nullptr) out[begin].add(i + 1);
     }
-    if (falls) out[i].push_back(i + 1);
+    if (falls) out[i].add(i + 1);
   }
   return successors;
 }

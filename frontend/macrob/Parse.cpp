@@ -69,7 +69,7 @@ public:
   GrammarReader(FileId file, const SourceMap& sources, const Limits& limits, Diagnostics& diagnostics,
                 Lines& lines, Text text)
       : text_(text), file_(file), source_(sources.file(file).bytes()), diagnostics_(diagnostics),
-        lines_(lines), language_(language()), bytes_(lines.bytes), lexer_(&bytes_),
+        lines_(lines), language_(language()), bytes_(lines.bytes), lexer_(&bytes_, lines.bytes),
         buffer_(lexer_, file, sources, language_, limits, problems_), emptySource_(onlyEnd()),
         emptyStream_(&emptySource_), parser_(&emptyStream_),
         session_(parser_, file, language_, limits, ignored_) {

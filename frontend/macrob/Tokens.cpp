@@ -5,6 +5,7 @@
 #include "frontend/macrob/Parse.h"
 #include "support/Ascii.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace dotek::frontend::macrob {
@@ -66,10 +67,8 @@ std::unique_ptr<antlr4::Token> TokenReader::nextToken() {
 void TokenReader::skipBlanks() {
   antlr4::CharStream& input = *getInputStream();
   const std::size_t from = input.index();
-  std::size_t at = from;
-  for (ssize_t next = 1; input.LA(next) == ' '; ++next)
-    ++at;
-  if (at != from) input.seek(at);
+  const std::size_t at = std::min(text_.find_first_not_of(' ', from), text_.size());
+  if (at > from) input.seek(at);
 }
 
 void TokenReader::takeApart(const antlr4::Token& run) {
@@ -158,8 +157,8 @@ Language language() {
 std::string dumpTokens(FileId file, const SourceMap& sources, const Limits& limits, Diagnostics& diagnostics,
                        Text text) {
   Lines lines = splitLines(file, sources, limits, diagnostics, text);
-  ByteStream bytes(std::move(lines.bytes));
-  TokenReader reader(&bytes);
+  ByteStream bytes(lines.bytes);
+  TokenReader reader(&bytes, lines.bytes);
   const Language macrob = language();
   const TokenBuffer tokens(reader, file, sources, macrob, limits, diagnostics);
   std::string out;

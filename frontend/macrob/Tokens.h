@@ -9,6 +9,7 @@
 #include <deque>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace dotek::frontend::macrob {
@@ -16,7 +17,8 @@ namespace dotek::frontend::macrob {
 // Takes runs of letters apart, and the text of DPRNT as one token.
 class TokenReader final : public grammar::MacroBLexer {
 public:
-  using MacroBLexer::MacroBLexer;
+  // `text`: what `input` reads.
+  TokenReader(antlr4::CharStream* input, std::string_view text) : MacroBLexer(input), text_(text) {}
   std::unique_ptr<antlr4::Token> nextToken() override;
 
 private:
@@ -25,6 +27,7 @@ private:
   void takeApart(const antlr4::Token& run);
   std::unique_ptr<antlr4::Token> printText(const antlr4::Token& bracket);
 
+  std::string_view text_;
   std::deque<std::unique_ptr<antlr4::Token>> waiting_;
   bool expectText_ = false; // after DPRNT, BPRNT, SETVN
 };

@@ -4,43 +4,6 @@
 
 namespace dotek::frontend::macrob {
 
-void walk(const Expression& expression, const VisitExpression& visit, bool subscript) {
-  visit(expression, subscript);
-  if (const auto* variable = std::get_if<nc::VariableRef>(&expression.node)) {
-    walk(*variable->number, visit, true);
-  } else if (const auto* negated = std::get_if<nc::Negated>(&expression.node)) {
-    walk(*negated->operand, visit, subscript);
-  } else if (const auto* operation = std::get_if<nc::Operation>(&expression.node)) {
-    walk(*operation->left, visit, subscript);
-    walk(*operation->right, visit, subscript);
-  } else if (const auto* call = std::get_if<nc::FunctionCall>(&expression.node)) {
-    for (const ExpressionPtr& argument : call->arguments)
-      walk(*argument, visit, subscript);
-  }
-}
-
-void walk(const Condition& condition, const VisitExpression& visit) {
-  if (const auto* comparison = std::get_if<Comparison>(&condition.node)) {
-    walk(*comparison->left, visit);
-    walk(*comparison->right, visit);
-  } else if (const auto* joined = std::get_if<JoinedConditions>(&condition.node)) {
-    walk(*joined->left, visit);
-    walk(*joined->right, visit);
-  }
-}
-
-void walk(const Block& block, const VisitExpression& visit) {
-  if (const auto* words = std::get_if<Words>(&block.body))
-    for (const nc::Word& word : words->words)
-      if (word.value != nullptr) walk(*word.value, visit);
-  if (const Condition* condition = conditionOf(block)) walk(*condition, visit);
-  if (const nc::Assignment* assignment = assignmentOf(block)) {
-    walk(*assignment->variable, visit, true);
-    walk(*assignment->value, visit);
-  }
-  if (const Goto* jump = gotoOf(block)) walk(*jump->target, visit);
-}
-
 void eachComparison(const Condition& condition,
                     const std::function<void(const Comparison& comparison, SourceRange range)>& visit) {
   if (const auto* both = std::get_if<JoinedConditions>(&condition.node)) {

@@ -19,14 +19,14 @@ bool storesAnyLocal(const ir::ProgramStatement& statement) {
   return !base || *base <= kLastArgument;
 }
 
-void checkProgram(const ir::Program& program, Report& report) {
-  if (endsProgram(program)) return;
-  const auto& body = program.body;
-  const std::set<std::uint32_t> required = requiredLocals(program);
+void check(const NcProgram& nc, Report& report) {
+  if (endsProgram(nc.program) || requiredLocals(nc.program).size() < 2) return;
+  const auto& body = nc.program.body;
   std::set<std::uint32_t> compared;
   std::set<std::uint32_t> stored;
   std::map<std::uint32_t, SourceRange> read;
-  for (const ir::ProgramStatement& statement : body) {
+  for (std::size_t i = 0; i < body.size(); ++i) {
+    const ir::ProgramStatement& statement = body[i];
     if (const auto number = storedNumber(statement))
       stored.insert(*number);
     else if (storesAnyLocal(statement))
@@ -38,11 +38,9 @@ void checkProgram(const ir::Program& program, Report& report) {
       continue;
     }
     if (callOf(statement) != nullptr) continue; // an empty one is handed on as such
-    eachRead(statement, [&](std::uint32_t number, SourceRange range) {
+    for (const auto& [number, range] : nc.reads(i))
       read.emplace(number, range.hasPlace() ? range : statement.origin.range());
-    });
   }
-  if (required.size() < 2) return;
   for (const auto& [number, range] : read)
     if (number >= 1 && number <= kLastArgument && !compared.contains(number) && !stored.contains(number))
       report.at(
@@ -50,10 +48,6 @@ void checkProgram(const ir::Program& program, Report& report) {
           "the program gives an alarm where other arguments are missing, and does not look at #{}; a call "
           "without it goes on with an empty value, which drops the word or counts as 0; test it, too",
           number);
-}
-
-void check(const NcProgram& nc, Report& report) {
-  checkProgram(nc.program, report);
 }
 
 } // namespace

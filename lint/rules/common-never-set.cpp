@@ -1,5 +1,4 @@
-#include "ir/Walk.h"
-#include "lint/Probing.h"
+#include "lint/NcProgram.h"
 
 #include <algorithm>
 #include <map>
@@ -17,17 +16,18 @@ void check(const Project& project, Report& report) {
   std::map<std::uint32_t, SourceRange> read;
   bool computed = false; // a number that is computed may be any
   bool main = false;
-  eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
-    main = main || endsProgram(program);
-    for (const ir::ProgramStatement& statement : program.body) {
+  for (const auto& nc : programsOf(project)) {
+    main = main || endsProgram(nc->program);
+    const auto& body = nc->program.body;
+    for (std::size_t i = 0; i < body.size(); ++i) {
+      const ir::ProgramStatement& statement = body[i];
       const auto number = storedNumber(statement);
       computed = computed || (std::holds_alternative<ir::Store>(statement.node) && !number);
       if (number) stored.insert(*number);
-      eachRead(statement, [&](std::uint32_t one, SourceRange range) {
+      for (const auto& [one, range] : nc->reads(i))
         read.emplace(one, range.hasPlace() ? range : statement.origin.range());
-      });
     }
-  });
+  }
   const auto isCommon = [](std::uint32_t number) { return number >= kFirstCommon && number <= kLastCommon; };
   if (computed || !main || std::count_if(stored.begin(), stored.end(), isCommon) < static_cast<int>(kLeast))
     return;

@@ -5,12 +5,12 @@ namespace {
 
 void check(const Project& project, Report& report) {
   for (const NcFile& nc : project.programs)
-    if (const auto mark = latheMark(*nc.file))
-      report.at(mark->range,
+    if (const auto mark = lathesOf(project).find(nc.file); mark != lathesOf(project).end())
+      report.at(mark->second.range,
                 "this block {}: the program is for a lathe, and the profiles of controls here are for "
                 "machining centres; G90, G92, G10, cycles and offsets mean something else there, and nothing "
                 "is said of them; variables, jumps and calls are checked as usual",
-                mark->what);
+                mark->second.what);
 }
 
 } // namespace

@@ -100,13 +100,12 @@ void check(const NcProgram& nc, Report& report) {
   const stdlib::SystemVariables& variables = nc.project.control->variables;
   if (!variables.toolWear || !variables.toolGeometry) return;
   const auto& body = nc.program.body;
-  if (std::none_of(body.begin(), body.end(), [](const auto& one) { return skipOf(one) != nullptr; })) return;
+  if (nc.skips().empty()) return;
   const LengthNumbers numbers(nc.project);
   const Sums sums(nc.program);
-  const IndirectWrites writes(nc.program);
   const std::vector<Terms> targets = targetsOf(nc.program, sums, numbers);
   for (const ir::ProgramStatement& statement : body) {
-    const auto written = wearWritten(statement, numbers, writes);
+    const auto written = wearWritten(statement, numbers, nc.writes());
     const auto value = written ? sums.of(written->value) : std::nullopt;
     if (!value) continue;
     Terms rest = *value;

@@ -1,5 +1,5 @@
 #include "ir/Walk.h"
-#include "lint/Skips.h"
+#include "lint/NcProgram.h"
 #include "lint/ToolLength.h"
 
 #include <algorithm>
@@ -39,9 +39,10 @@ std::vector<bool> asksForLength(const ir::Program& program) {
   return out;
 }
 
-std::optional<LeftOff> leftOff(const ir::Program& program) {
+std::optional<LeftOff> leftOff(const NcProgram& nc) {
   LeftOff out;
-  const auto others = codesOfOtherGroups(program);
+  const ir::Program& program = nc.program;
+  const auto& others = nc.otherCodes();
   for (const ir::ProgramStatement& one : program.body) {
     if (statedOffset(one, others) == Offset::Off) out.code = &one;
     out.probes = out.probes || skipOf(one) != nullptr;
@@ -51,7 +52,7 @@ std::optional<LeftOff> leftOff(const ir::Program& program) {
   if (out.code == nullptr) return std::nullopt;
   const std::vector<bool> asks = asksForLength(program);
   const auto states = ir::factsBefore<Offset>(
-      program.body, Offset::AsBefore,
+      program.body, nc.flow(), Offset::AsBefore,
       [&](std::size_t at, std::size_t, Offset offset) {
         if (asks[at]) return Offset::Either;
         return statedOffset(program.body[at], others).value_or(offset);
@@ -82,8 +83,8 @@ bool movesZ(const ir::ProgramStatement& statement) {
 using Programs = std::map<std::uint32_t, LeftOff>;
 
 // Callers under G43 that go on with Z after such a program.
-void checkCaller(const ir::Program& program, const Programs& programs, Report& report) {
-  const auto& body = program.body;
+void checkCaller(const NcProgram& nc, const Programs& programs, Report& report) {
+  const auto& body = nc.program.body;
   const auto left = [&](std::size_t at) {
     const auto called = calledProgram(body[at]);
     return called ? programs.find(*called) : programs.end();
@@ -92,10 +93,10 @@ void checkCaller(const ir::Program& program, const Programs& programs, Report& r
   for (std::size_t i = 0; i < body.size(); ++i)
     calls = calls || left(i) != programs.end();
   if (!calls) return;
-  const auto others = codesOfOtherGroups(program);
+  const auto& others = nc.otherCodes();
   // 0: under no G43; 1: under it; else 2 more than the place of the call that has taken it off.
   const auto states = ir::factsBefore<std::size_t>(
-      body, std::size_t{0},
+      body, nc.flow(), std::size_t{0},
       [&](std::size_t at, std::size_t, std::size_t state) -> std::size_t {
         if (const auto stated = statedOffset(body[at], others)) return *stated == Offset::On ? 1 : 0;
         if (state == 1 && left(at) != programs.end()) return at + 2;
@@ -123,26 +124,25 @@ void checkCaller(const ir::Program& program, const Programs& programs, Report& r
 void check(const Project& project, Report& report) {
   const ToolLengths& lengths = toolLengthsOf(project);
   Programs programs;
-  eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
-    if (program.number == 0 || endsProgram(program)) return;
-    const auto left = leftOff(program);
-    if (!left) return;
+  for (const auto& nc : programsOf(project)) {
+    const ir::Program& program = nc->program;
+    if (program.number == 0 || endsProgram(program)) continue;
+    const auto left = leftOff(*nc);
+    if (!left) continue;
     const auto number = static_cast<std::uint32_t>(program.number);
     programs.emplace(number, *left);
     // Callers among the files say for themselves whether they go on without it.
-    if (lengths.called().contains(number) || !left->probes || left->changesTool ||
-        lengths.measuresTool(program))
-      return;
+    if (lengths.called().contains(number) || !left->probes || left->changesTool || lengths.measuresTool(*nc))
+      continue;
     report
         .at(left->exit->origin.range(),
             "the program returns with G49 in force; the caller's next Z is one of the spindle, and the tool "
             "goes deeper by its length; write `G43 H#4111` before M99, or keep `#4008` and give it back")
         .note(left->code->origin.range(), "G49 is here");
-  });
+  }
   if (programs.empty()) return;
-  eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
-    checkCaller(program, programs, report);
-  });
+  for (const auto& nc : programsOf(project))
+    checkCaller(*nc, programs, report);
 }
 
 } // namespace

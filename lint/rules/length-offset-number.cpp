@@ -12,7 +12,7 @@ namespace {
 // entry of the table of tools a new value, or nobody knows what the called one does.
 bool mayMeasureTool(const NcProgram& nc) {
   const ToolLengths& lengths = toolLengthsOf(nc.project);
-  if (lengths.measuresTool(nc.program)) return true;
+  if (lengths.measuresTool(nc)) return true;
   const Probing& probing = probingOf(nc.project);
   bool own = false;
   for (const ir::ProgramStatement& statement : nc.program.body) {
@@ -29,9 +29,8 @@ bool mayMeasureTool(const NcProgram& nc) {
                const auto called = calledProgram(statement);
                return called && lengths.switching().contains(*called);
              });
-  eachProgram(nc.project, [&](const ir::Program& program, const macrob::File&) {
-    out = out || lengths.measuresTool(program);
-  });
+  for (const auto& other : programsOf(nc.project))
+    out = out || lengths.measuresTool(*other);
   return out;
 }
 

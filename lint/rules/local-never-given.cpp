@@ -1,4 +1,5 @@
 #include "ir/Walk.h"
+#include "lint/NcProgram.h"
 #include "lint/OwnCalls.h"
 #include "stdlib/MacroSet.h"
 
@@ -23,7 +24,8 @@ bool maySetLocal(const ir::ProgramStatement& statement) {
 }
 
 // `calls`: the locals that some call of the program sets; nullptr: nothing calls it.
-void checkProgram(const ir::Program& program, const std::set<std::uint32_t>* calls, Report& report) {
+void checkProgram(const NcProgram& nc, const std::set<std::uint32_t>* calls, Report& report) {
+  const ir::Program& program = nc.program;
   std::set<std::uint32_t> given;
   if (calls != nullptr) given = *calls;
   for (const ir::ProgramStatement& statement : program.body) {
@@ -51,24 +53,25 @@ void checkProgram(const ir::Program& program, const std::set<std::uint32_t>* cal
                 *number);
   }
   if (calls == nullptr) return;
-  for (const ir::ProgramStatement& statement : program.body) {
+  for (std::size_t i = 0; i < program.body.size(); ++i) {
+    const ir::ProgramStatement& statement = program.body[i];
     const auto* branch = std::get_if<ir::Branch>(&statement.node);
     if ((branch != nullptr && nullCompared(branch->condition)) || callOf(statement) != nullptr) continue;
     // A flag that is compared as such may be left out.
     if (const auto* flag =
             branch == nullptr ? nullptr : std::get_if<ir::Comparison>(&branch->condition->node))
       if (isPlain(*flag->left) && isPlain(*flag->right)) continue;
-    eachRead(statement, [&](std::uint32_t number, SourceRange range) {
-      if (number == 0 || number > kLastLocal || given.contains(number)) return;
+    for (const auto& [number, range] : nc.reads(i)) {
+      if (number == 0 || number > kLastLocal || given.contains(number)) continue;
       // A test beside it shows that leaving it out is meant.
-      if (asked.contains(number) || (branch == nullptr && tested.contains(number))) return;
-      if (!told.insert(number).second) return;
+      if (asked.contains(number) || (branch == nullptr && tested.contains(number))) continue;
+      if (!told.insert(number).second) continue;
       report.at(range.hasPlace() ? range : statement.origin.range(),
                 "#{} is read here, no call in the files gives it, and the program does not set it; it is "
                 "empty, and "
                 "counts as 0 or drops the word; write the number that is meant",
                 number);
-    });
+    }
   }
 }
 
@@ -77,11 +80,11 @@ void check(const Project& project, Report& report) {
   for (const auto& [program, list] : callsByProgram(project))
     for (const OwnCall& call : list)
       calls[program].insert(call.given.begin(), call.given.end());
-  eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
-    if (endsProgram(program) || program.number == 0) return;
-    const auto at = calls.find(static_cast<std::uint32_t>(program.number));
-    checkProgram(program, at == calls.end() ? nullptr : &at->second, report);
-  });
+  for (const auto& nc : programsOf(project)) {
+    if (endsProgram(nc->program) || nc->program.number == 0) continue;
+    const auto at = calls.find(static_cast<std::uint32_t>(nc->program.number));
+    checkProgram(*nc, at == calls.end() ? nullptr : &at->second, report);
+  }
 }
 
 } // namespace

@@ -2,8 +2,8 @@
 #include "lint/NcProgram.h"
 #include "lint/Skips.h"
 
+#include <array>
 #include <map>
-#include <set>
 
 namespace dotek::lint::rule {
 namespace {
@@ -16,37 +16,36 @@ bool isAmongSystem(const ir::ExpressionPtr& number) {
   return ir::firstNumber(number).value_or(0) >= kFirstSystem;
 }
 
-void checkProgram(const ir::Program& program, Report& report) {
-  std::set<std::uint32_t> read;
+void check(const NcProgram& nc, Report& report) {
+  std::array<bool, kLastLocal + 1> read{};
   std::map<std::uint32_t, SourceRange> stored;
-  for (const ir::ProgramStatement& statement : program.body) {
+  for (const std::size_t at : nc.computedReads()) {
     bool computed = false;
-    ir::eachNode(statement, [&](const ir::Expression& node) {
+    ir::eachNode(nc.program.body[at], [&](const ir::Expression& node) {
       const auto* variable = std::get_if<ir::MachineVariable>(&node.node);
       computed =
           computed || (variable != nullptr && !variableNumber(node) && !isAmongSystem(variable->number));
     });
-    // A number that is computed may be any; a subprogram has the same locals.
+    if (computed) return; // it may be any
+  }
+  for (const VariableRead& one : nc.reads())
+    if (one.number <= kLastLocal) read[one.number] = true;
+  for (const ir::ProgramStatement& statement : nc.program.body) {
     const ir::Call* call = callOf(statement);
-    if (computed || (call != nullptr && call->kind != ir::CallKind::Macro)) return;
+    if (call != nullptr && call->kind != ir::CallKind::Macro) return; // a subprogram has the same locals
     if (const auto* store = std::get_if<ir::Store>(&statement.node);
         store != nullptr && !storedNumber(statement) && !isAmongSystem(store->number))
       return;
-    eachRead(statement, [&](std::uint32_t number, SourceRange) { read.insert(number); });
     if (const auto number = storedNumber(statement); number && *number >= 1 && *number <= kLastLocal)
       stored.emplace(*number, statement.origin.range());
   }
   for (const auto& [number, range] : stored)
-    if (!read.contains(number))
+    if (!read[number])
       report.at(
           range,
           "#{} gets a value here, and the program never reads it; a local is gone when the program ends; "
           "one of the two numbers is a misprint, or the block is left over",
           number);
-}
-
-void check(const NcProgram& nc, Report& report) {
-  checkProgram(nc.program, report);
 }
 
 } // namespace

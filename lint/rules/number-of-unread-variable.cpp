@@ -1,5 +1,5 @@
 #include "ir/Walk.h"
-#include "lint/Skips.h"
+#include "lint/NcProgram.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,37 +12,35 @@
 namespace dotek::lint::rule {
 namespace {
 
-constexpr double kFirstCommon = 100;
-constexpr double kLastCommon = 999;
+constexpr std::uint32_t kFirstCommon = 100;
+constexpr std::uint32_t kLastCommon = 999;
+
+bool isCommon(std::uint32_t number) {
+  return number >= kFirstCommon && number <= kLastCommon;
+}
 
 // Codes in force and positions of the machine: a number alone that is one of these was to be read.
 bool isSystem(double number) {
   return (number > 4000 && number <= 4130) || (number > 5000 && number <= 5083);
 }
 
-// What one statement reads, and its numbers that may be those of variables.
+// Numbers of one statement that may be those of variables.
 struct Statement {
-  std::vector<const ir::Expression*> indices; // numbers of variables
-  std::vector<std::uint32_t> read;
+  std::vector<const ir::Expression*> indices;                           // numbers of variables
   std::vector<std::pair<const ir::Expression*, std::uint32_t>> numbers; // whole, of common variables
 
   void look(const ir::ProgramStatement& statement) {
     indices.clear();
-    read.clear();
     numbers.clear();
     ir::eachNode(statement, [&](const ir::Expression& node) {
       if (const auto* variable = std::get_if<ir::MachineVariable>(&node.node)) {
         indices.push_back(variable->number.get());
-        if (const auto number = variableNumber(node)) read.push_back(*number);
       } else if (const auto* constant = std::get_if<ir::Constant>(&node.node)) {
         if (constant->value >= kFirstCommon && constant->value <= kLastCommon &&
             constant->value == std::floor(constant->value) && constant->digits.find('.') == std::string::npos)
           numbers.emplace_back(&node, static_cast<std::uint32_t>(constant->value));
       }
     });
-    if (const auto* print = std::get_if<ir::Print>(&statement.node))
-      for (const ir::PrintPiece& piece : print->pieces)
-        if (piece.number) read.push_back(*piece.number);
   }
 
   bool isIndex(const ir::Expression* node) const {
@@ -51,10 +49,10 @@ struct Statement {
 };
 
 // Variables by whose value another one is chosen: `#7=5063`, and `#[#7]` later, means the number.
-std::set<std::uint32_t> counters(const ir::Program& program) {
+std::set<std::uint32_t> counters(const NcProgram& nc) {
   std::set<std::uint32_t> out;
-  for (const ir::ProgramStatement& statement : program.body)
-    ir::eachNode(statement, [&](const ir::Expression& node) {
+  for (const std::size_t at : nc.computedReads())
+    ir::eachNode(nc.program.body[at], [&](const ir::Expression& node) {
       const auto* variable = std::get_if<ir::MachineVariable>(&node.node);
       if (variable == nullptr || ir::constantValue(variable->number) != nullptr) return;
       ir::eachNode(variable->number, [&](const ir::Expression& inner) {
@@ -89,18 +87,21 @@ void check(const Project& project, Report& report) {
     std::map<std::uint32_t, SourceRange> stored, used;
   };
   std::vector<Numbers> programs;
-  std::set<std::uint32_t> read; // in any
+  std::vector<bool> read(kLastCommon + 1); // in any
   Statement seen;
-  eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
+  for (const auto& nc : programsOf(project)) {
     Numbers& mine = programs.emplace_back();
-    const std::set<std::uint32_t> counts = counters(program);
-    for (const ir::ProgramStatement& statement : program.body) {
+    const std::set<std::uint32_t> counts = counters(*nc);
+    for (const VariableRead& one : nc->reads())
+      if (isCommon(one.number)) read[one.number] = true;
+    for (const ir::ProgramStatement& statement : nc->program.body) {
+      // Words may be any numbers.
+      if (std::holds_alternative<ir::NcBlock>(statement.node) || callOf(statement) != nullptr ||
+          std::holds_alternative<ir::Raise>(statement.node))
+        continue;
       const auto target = storedNumber(statement);
-      if (target) mine.stored.emplace(*target, statement.origin.range());
+      if (target && isCommon(*target)) mine.stored.emplace(*target, statement.origin.range());
       seen.look(statement);
-      read.insert(seen.read.begin(), seen.read.end());
-      const bool words = std::holds_alternative<ir::NcBlock>(statement.node) ||
-                         callOf(statement) != nullptr || std::holds_alternative<ir::Raise>(statement.node);
       const auto* store = std::get_if<ir::Store>(&statement.node);
       const auto* whole = store == nullptr ? nullptr : std::get_if<ir::Constant>(&store->value->node);
       if (whole != nullptr && !(target && counts.contains(*target)) && isSystem(whole->value) &&
@@ -112,7 +113,7 @@ void check(const Project& project, Report& report) {
         report.at(statement.origin.range(),
                   "a number is here where its variable belongs; the control calculates "
                   "with the number; write the `#` before it");
-      if (words || seen.numbers.empty()) continue;
+      if (seen.numbers.empty()) continue;
       std::set<const ir::Expression*> inNumber; // of the number of the variable that is set
       if (store != nullptr)
         ir::eachNode(store->number, [&](const ir::Expression& node) { inNumber.insert(&node); });
@@ -120,11 +121,11 @@ void check(const Project& project, Report& report) {
         if (!seen.isIndex(node) && !inNumber.contains(node))
           mine.used.emplace(number, node->range.hasPlace() ? node->range : statement.origin.range());
     }
-  });
+  }
   for (const Numbers& one : programs)
     for (const auto& [number, range] : one.used) {
       const auto at = one.stored.find(number);
-      if (at == one.stored.end() || read.contains(number)) continue;
+      if (at == one.stored.end() || read[number]) continue;
       report
           .at(range,
               "{0} is a number here, and #{0} is set and read nowhere; the control calculates with {0}; "

@@ -201,7 +201,19 @@ private:
   std::set<std::pair<FileId, std::uint32_t>> told_;
 };
 
+// Where no program opens, closes or prints there is nothing to find.
+bool usesPort(const Project& project) {
+  bool out = false;
+  eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
+    out = out || std::any_of(program.body.begin(), program.body.end(), [](const ir::ProgramStatement& one) {
+            return std::holds_alternative<ir::Port>(one.node) || std::holds_alternative<ir::Print>(one.node);
+          });
+  });
+  return out;
+}
+
 void check(const Project& project, Report& report) {
+  if (!usesPort(project)) return;
   Ports(project, report).check();
 }
 

@@ -1,4 +1,4 @@
-#include "lint/Skips.h"
+#include "lint/NcProgram.h"
 #include "lint/ToolLength.h"
 
 #include <algorithm>
@@ -37,14 +37,17 @@ struct Own {
   bool skips = false, statesSpindle = false, measuresTool = false;
 };
 
-void checkProgram(const ir::Program& program, const std::map<std::uint32_t, Own>& own, bool measuresTool,
+bool turnsSpindle(const NcProgram& nc) {
+  const auto& body = nc.program.body;
+  return std::any_of(body.begin(), body.end(),
+                     [](const ir::ProgramStatement& one) { return statedSpindle(one) == Spindle::Turns; });
+}
+
+void checkProgram(const NcProgram& nc, const std::map<std::uint32_t, Own>& own, bool measuresTool,
                   Report& report) {
-  const auto& body = program.body;
-  if (std::none_of(body.begin(), body.end(),
-                   [](const ir::ProgramStatement& one) { return statedSpindle(one) == Spindle::Turns; }))
-    return;
+  const auto& body = nc.program.body;
   const auto states = ir::factsBefore<Turned>(
-      body, Turned{0},
+      body, nc.flow(), Turned{0},
       [&](std::size_t at, std::size_t, Turned turned) -> Turned {
         if (const auto stated = statedSpindle(body[at])) return *stated == Spindle::Turns ? at + 1 : 0;
         if (callOf(body[at]) == nullptr) return turned;
@@ -76,23 +79,26 @@ void checkProgram(const ir::Program& program, const std::map<std::uint32_t, Own>
 }
 
 void check(const Project& project, Report& report) {
+  const NcPrograms& programs = programsOf(project);
+  if (std::none_of(programs.begin(), programs.end(), [](const auto& nc) { return turnsSpindle(*nc); }))
+    return;
   const ToolLengths& lengths = toolLengthsOf(project);
   const Probing& probing = probingOf(project);
   std::map<std::uint32_t, Own> own;
-  eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
-    if (program.number == 0) return;
+  for (const auto& nc : programs) {
+    const ir::Program& program = nc->program;
+    if (program.number == 0) continue;
     Own one;
     one.skips = probing.skips(static_cast<std::uint32_t>(program.number));
     one.statesSpindle =
         std::any_of(program.body.begin(), program.body.end(), [](const ir::ProgramStatement& statement) {
           return statedSpindle(statement).has_value();
         });
-    one.measuresTool = one.skips && lengths.measuresTool(program);
+    one.measuresTool = one.skips && lengths.measuresTool(*nc);
     own.emplace(static_cast<std::uint32_t>(program.number), one);
-  });
-  eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
-    checkProgram(program, own, lengths.measuresTool(program), report);
-  });
+  }
+  for (const auto& nc : programs)
+    if (turnsSpindle(*nc)) checkProgram(*nc, own, lengths.measuresTool(*nc), report);
 }
 
 } // namespace

@@ -1,5 +1,5 @@
 #include "ir/Walk.h"
-#include "lint/OwnCalls.h"
+#include "lint/NcProgram.h"
 
 #include <algorithm>
 #include <cmath>
@@ -61,8 +61,12 @@ bool madeForAnother(const Use& use, const std::vector<Use>& all) {
   });
 }
 
-void checkProgram(const ir::Program& program, const std::map<std::uint32_t, std::set<std::uint32_t>>& sets,
+void checkProgram(const NcProgram& nc, const std::map<std::uint32_t, std::set<std::uint32_t>>& sets,
                   const std::set<std::uint32_t>& works, Report& report) {
+  const ir::Program& program = nc.program;
+  if (std::none_of(program.body.begin(), program.body.end(),
+                   [](const auto& one) { return callOf(one) != nullptr; }))
+    return;
   std::map<std::uint32_t, std::vector<Use>> uses;
   std::map<std::uint32_t, std::size_t> lastRead; // of each variable: after which statements, from 1 on
   const auto judge = [&](std::uint32_t called, Use& use) { // nothing follows before the next call
@@ -72,11 +76,13 @@ void checkProgram(const ir::Program& program, const std::map<std::uint32_t, std:
   };
   std::size_t place = 0;
   const ir::ProgramStatement* before = nullptr;
-  for (const ir::ProgramStatement& statement : program.body) {
+  for (std::size_t i = 0; i < program.body.size(); ++i) {
+    const ir::ProgramStatement& statement = program.body[i];
     if (ir::isLayout(statement)) continue;
     const ir::ProgramStatement* const previous = std::exchange(before, &statement);
     ++place;
-    eachRead(statement, [&](std::uint32_t number, SourceRange) { lastRead[number] = place; });
+    for (const VariableRead& read : nc.reads(i))
+      lastRead[read.number] = place;
     const ir::Call* call = callOf(statement);
     const double* number = call == nullptr || !call->program ? nullptr : ir::constantValue(call->program);
     if (number == nullptr || *number < 1 || *number > 1e8) continue;
@@ -116,9 +122,8 @@ void checkProgram(const ir::Program& program, const std::map<std::uint32_t, std:
 void check(const Project& project, Report& report) {
   const auto sets = results(project);
   const auto last = lasting(project);
-  eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
-    checkProgram(program, sets, last, report);
-  });
+  for (const auto& nc : programsOf(project))
+    checkProgram(*nc, sets, last, report);
 }
 
 } // namespace

@@ -2,8 +2,9 @@
 #include "ir/Evaluate.h"
 #include "ir/Rewrite.h"
 #include "lint/Lathe.h"
-#include "lint/Skips.h"
+#include "lint/NcProgram.h"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -79,12 +80,17 @@ std::optional<Mode> askedOn(const ir::ProgramStatement& statement, bool holds,
   return Mode{absolute ? DistanceMode::Absolute : DistanceMode::Incremental, true};
 }
 
-void checkProgram(const ir::Program& program, const Others& others, Report& report) {
+void checkProgram(const NcProgram& nc, const Others& others, Report& report) {
+  const ir::Program& program = nc.program;
   // Its callers are read, and state the mode that it goes by.
   if (others.called.contains(static_cast<std::uint32_t>(program.number))) return;
+  const auto goesByCaller = [&](std::size_t at) {
+    return axesOf(std::get<ir::NcBlock>(program.body[at].node)) != 0 && !statedMode(program.body[at]);
+  };
+  if (std::none_of(nc.skips().begin(), nc.skips().end(), goesByCaller)) return;
   const std::set<std::uint32_t> copies = copiesOfMode(program);
   const auto stated = ir::factsBefore<Mode>(
-      program.body, ir::flowOf(program.body), Mode{},
+      program.body, nc.flow(), Mode{},
       [&](std::size_t at, std::size_t to, Mode mode) {
         const ir::ProgramStatement& statement = program.body[at];
         // A subprogram may be there to set modes.
@@ -104,11 +110,8 @@ void checkProgram(const ir::Program& program, const Others& others, Report& repo
         return into != before;
       });
   Diagnostic* first = nullptr; // the mode that is missing is one cause for all of them
-  for (std::size_t i = 0; i < program.body.size(); ++i) {
-    const ir::NcBlock* skip = skipOf(program.body[i]);
-    if (skip == nullptr || axesOf(*skip) == 0 || !stated[i] || stated[i]->mode != DistanceMode::AsBefore)
-      continue;
-    if (statedMode(program.body[i])) continue;
+  for (const std::size_t i : nc.skips()) {
+    if (!goesByCaller(i) || !stated[i] || stated[i]->mode != DistanceMode::AsBefore) continue;
     if (first != nullptr)
       first->note(program.body[i].origin.range(), "and this one");
     else
@@ -121,10 +124,9 @@ void checkProgram(const ir::Program& program, const Others& others, Report& repo
 
 void check(const Project& project, Report& report) {
   const Others others = othersOf(project);
-  const std::set<const macrob::File*> lathes = latheFiles(project);
-  eachProgram(project, [&](const ir::Program& program, const macrob::File& file) {
-    if (!lathes.contains(&file)) checkProgram(program, others, report);
-  });
+  const Lathes& lathes = lathesOf(project);
+  for (const auto& nc : programsOf(project))
+    if (!lathes.contains(&nc->file)) checkProgram(*nc, others, report);
 }
 
 } // namespace

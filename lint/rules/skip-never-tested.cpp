@@ -104,9 +104,9 @@ void check(const NcProgram& nc, Report& report) {
   const auto& body = nc.program.body;
   std::optional<std::set<std::uint32_t>> asked;
   std::size_t steps = kMostSteps;
-  for (std::size_t i = 0; i < body.size(); ++i) {
+  for (const std::size_t i : nc.skips()) {
     const ir::NcBlock* skip = skipOf(body[i]);
-    if (skip == nullptr || mayAskControl(body[i]) || report.full(body[i].origin.range().file)) continue;
+    if (mayAskControl(body[i]) || report.full(body[i].origin.range().file)) continue;
     const auto after = afterSkip(nc, i);
     if (!after || std::any_of(after->begin(), after->end(), [&](std::size_t at) {
           return mayAskControl(body[at]) && !ir::keepsExtreme(body, at);

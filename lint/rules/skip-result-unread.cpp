@@ -139,17 +139,12 @@ Following following(const NcProgram& nc, std::size_t skip, const std::vector<std
 
 void check(const NcProgram& nc, Report& report) {
   const auto& body = nc.program.body;
-  const bool reads = std::any_of(body.begin(), body.end(), [&](const ir::ProgramStatement& statement) {
-    bool contact = false;
-    eachRead(statement, [&](std::uint32_t number, SourceRange) {
-      contact = contact || contactAxis(number).has_value();
-    });
-    return contact;
-  });
-  if (!reads) return;
-  for (std::size_t i = 0; i < body.size(); ++i) {
-    const ir::NcBlock* skip = skipOf(body[i]);
-    if (skip == nullptr || mayAskControl(body[i])) continue;
+  const auto reads = nc.reads();
+  if (std::none_of(reads.begin(), reads.end(),
+                   [](const VariableRead& one) { return contactAxis(one.number).has_value(); }))
+    return;
+  for (const std::size_t i : nc.skips()) {
+    if (mayAskControl(body[i])) continue;
     const auto after = afterSkip(nc, i);
     if (!after || std::any_of(after->begin(), after->end(), [&](std::size_t at) { return asks(body[at]); }))
       continue;

@@ -22,10 +22,9 @@ bool endsPair(const ir::ProgramStatement& statement) {
                          ir::Print, ir::NameVariables> auto&) { return false; });
 }
 
-bool reads(const ir::ProgramStatement& statement, std::uint32_t variable) {
-  bool out = false;
-  eachRead(statement, [&](std::uint32_t number, SourceRange) { out = out || number == variable; });
-  return out;
+bool reads(const NcProgram& nc, std::size_t at, std::uint32_t variable) {
+  const auto all = nc.reads(at);
+  return std::any_of(all.begin(), all.end(), [&](const VariableRead& one) { return one.number == variable; });
 }
 
 // The first G31 that goes to the same target as this one with nothing between that moves: fast and slow at
@@ -41,7 +40,7 @@ std::optional<std::size_t> sameBefore(const NcProgram& nc, std::size_t at) {
     if (endsPair(body[i])) return std::nullopt;
     if (const auto* store = std::get_if<ir::Store>(&body[i].node)) {
       const auto number = storedNumber(body[i]);
-      if (!number || reads(body[at], *number) || store->value == nullptr) return std::nullopt;
+      if (!number || reads(nc, at, *number) || store->value == nullptr) return std::nullopt;
     }
   }
   return std::nullopt;
@@ -50,6 +49,12 @@ std::optional<std::size_t> sameBefore(const NcProgram& nc, std::size_t at) {
 void check(const NcProgram& nc, Report& report) {
   const ir::Program& program = nc.program;
   const auto& body = program.body;
+  if (nc.skips().empty()) return;
+  const auto readsContact = [&](std::size_t at) {
+    const auto all = nc.reads(at);
+    return std::any_of(all.begin(), all.end(),
+                       [](const VariableRead& one) { return contactAxis(one.number).has_value(); });
+  };
   const auto states = ir::factsBefore<Contact>(
       body, nc.flow(), Contact::Free,
       [&](std::size_t at, std::size_t, Contact state) {
@@ -58,11 +63,9 @@ void check(const NcProgram& nc, Report& report) {
         if (const auto* block = std::get_if<ir::NcBlock>(&body[at].node))
           if (axesOf(*block) != 0) return Contact::Free;
         if (state != Contact::Skipped) return state;
-        eachRead(body[at], [&](std::uint32_t number, SourceRange) {
-          if (contactAxis(number) && std::holds_alternative<ir::Store>(body[at].node) && !askedAlone(nc, at))
-            state = Contact::Used;
-        });
-        return state;
+        return std::holds_alternative<ir::Store>(body[at].node) && readsContact(at) && !askedAlone(nc, at)
+                   ? Contact::Used
+                   : state;
       },
       [](Contact& into, Contact other) {
         // A path on which the stylus is free is one on which all is well.
@@ -72,8 +75,8 @@ void check(const NcProgram& nc, Report& report) {
         into = merged;
         return changed;
       });
-  for (std::size_t i = 0; i < body.size(); ++i) {
-    if (skipOf(body[i]) == nullptr || !states[i]) continue;
+  for (const std::size_t i : nc.skips()) {
+    if (!states[i]) continue;
     if (const auto before = sameBefore(nc, i)) {
       report
           .at(body[i].origin.range(),

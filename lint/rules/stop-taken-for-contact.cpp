@@ -16,9 +16,8 @@ std::optional<AxisSet> stopAxis(std::uint32_t number) {
 
 void check(const NcProgram& nc, Report& report) {
   const auto& body = nc.program.body;
-  for (std::size_t i = 0; i < body.size(); ++i) {
+  for (const std::size_t i : nc.skips()) {
     const ir::NcBlock* skip = skipOf(body[i]);
-    if (skip == nullptr) continue;
     const ir::ProgramStatement* taken = nullptr;
     std::uint32_t number = 0;
     SourceRange at;
@@ -27,9 +26,8 @@ void check(const NcProgram& nc, Report& report) {
       const auto* block = std::get_if<ir::NcBlock>(&body[k].node);
       if ((block != nullptr && axesOf(*block) != 0) || callOf(body[k]) != nullptr) break;
       if (std::holds_alternative<ir::Exit>(body[k].node)) break;
-      eachRead(body[k], [&](std::uint32_t read, SourceRange) {
-        asksContact = asksContact || contactAxis(read).has_value();
-      });
+      for (const VariableRead& read : nc.reads(k))
+        asksContact = asksContact || contactAxis(read.number).has_value();
       const auto* store = std::get_if<ir::Store>(&body[k].node);
       // A copy by itself is a place to go back to.
       if (store == nullptr || taken != nullptr ||

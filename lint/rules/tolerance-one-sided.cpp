@@ -147,7 +147,7 @@ struct Test {
 
 void check(const NcProgram& nc, Report& report) {
   const auto& body = nc.program.body;
-  if (std::none_of(body.begin(), body.end(), [](const auto& one) { return skipOf(one) != nullptr; })) return;
+  if (nc.skips().empty()) return;
   const Uses uses = usesOf(nc);
   std::vector<Test> tests;              // one side each
   std::vector<const ir::Binary*> other; // compared in another way: both sides, the other one

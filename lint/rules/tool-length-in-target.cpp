@@ -84,12 +84,12 @@ const std::string* doubtOf(const Project& project) {
   return with.grade == "inferred" ? &with.source : nullptr;
 }
 
-void checkProgram(const ir::Program& program, const Project& project, const ToolLengths& lengths,
-                  Report& report) {
+void check(const NcProgram& nc, Report& report) {
+  const Project& project = nc.project;
   // One position that is read leads to one finding, at its first coordinate.
   std::map<std::pair<FileId, std::uint32_t>, std::size_t> places; // of positions, in `read`
   std::vector<std::vector<LengthLeftIn>> read;
-  for (const LengthLeftIn& one : lengths.leftIn(program)) {
+  for (const LengthLeftIn& one : toolLengthsOf(project).leftIn(nc)) {
     const auto [place, added] = places.try_emplace({one.readAt.file, one.readAt.begin}, read.size());
     if (added) read.emplace_back();
     read[place->second].push_back(one);
@@ -131,10 +131,6 @@ void checkProgram(const ir::Program& program, const Project& project, const Tool
       found.fix = std::move(fix);
     }
   }
-}
-
-void check(const NcProgram& nc, Report& report) {
-  checkProgram(nc.program, nc.project, toolLengthsOf(nc.project), report);
 }
 
 } // namespace

@@ -1,5 +1,5 @@
 #include "frontend/macrob/Calls.h"
-#include "lint/Probing.h"
+#include "lint/NcProgram.h"
 
 #include <algorithm>
 #include <map>
@@ -9,6 +9,10 @@ namespace {
 
 constexpr std::uint32_t kFirstCommon = 100;
 constexpr std::uint32_t kLastCommon = 999;
+
+bool isCommon(std::uint32_t number) {
+  return number >= kFirstCommon && number <= kLastCommon;
+}
 
 // Two neighbouring digits have changed places.
 bool areSwapped(std::uint32_t a, std::uint32_t b) {
@@ -27,18 +31,21 @@ void check(const Project& project, Report& report) {
   // A common variable may be set in one file and read in another, but a misprint is made in one.
   std::map<std::uint32_t, SourceRange> stored, read;
   std::map<std::uint32_t, int> times; // each number is read or set
-  eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
-    for (const ir::ProgramStatement& statement : program.body) {
-      if (const auto number = storedNumber(statement)) {
-        stored.emplace(*number, statement.origin.range());
+  for (const auto& nc : programsOf(project)) {
+    const auto& body = nc->program.body;
+    for (std::size_t i = 0; i < body.size(); ++i) {
+      const SourceRange place = body[i].origin.range();
+      if (const auto number = storedNumber(body[i]); number && isCommon(*number)) {
+        stored.emplace(*number, place);
         ++times[*number];
       }
-      eachRead(statement, [&](std::uint32_t number, SourceRange range) {
-        read.emplace(number, range.hasPlace() ? range : statement.origin.range());
+      for (const auto& [number, range] : nc->reads(i)) {
+        if (!isCommon(number)) continue;
+        read.emplace(number, range.hasPlace() ? range : place);
         ++times[number];
-      });
+      }
     }
-  });
+  }
   // Results and tables of probing macros are set by the vendor's text.
   const auto ofVendor = [&](std::uint32_t number) {
     return std::any_of(project.macroSets.begin(), project.macroSets.end(), [&](const stdlib::MacroSet& set) {
@@ -61,7 +68,7 @@ void check(const Project& project, Report& report) {
         });
   });
   for (const auto& [number, range] : read) {
-    if (number < kFirstCommon || number > kLastCommon || stored.contains(number)) continue;
+    if (stored.contains(number)) continue;
     // A misprint is made once.
     if (times[number] > 1 || (probes && ofVendor(number))) continue;
     const auto other =
