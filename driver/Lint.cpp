@@ -103,8 +103,7 @@ public:
     acceptEntryPoints();
     keepStrongest(session_.diagnostics());
     dropReadsOfUndefined();
-    for (Diagnostic& one : separate.all())
-      session_.diagnostics().add(std::move(one));
+    lint::moveInto(session_.diagnostics(), separate);
     for (const lint::Project& project : projects)
       lint::lintPosted(project, session_.diagnostics(), wanted);
     reportUnknownSets();

@@ -5,42 +5,36 @@
 namespace dotek::lint {
 
 const SharedInputs& Analyses::shared(const Project& project) {
-  if (!shared_) shared_.emplace(project);
-  return *shared_;
+  return shared_.get([&](auto& into) { into.emplace(project); });
 }
 
 const NcPrograms& Analyses::programs(const Project& project) {
-  if (programs_) return *programs_;
-  programs_.emplace();
-  eachProgram(project, [&](const ir::Program& program, const macrob::File& file) {
-    programs_->push_back(std::make_unique<const NcProgram>(project, program, file));
+  return programs_.get([&](auto& into) {
+    into.emplace();
+    eachProgram(project, [&](const ir::Program& program, const macrob::File& file) {
+      into->push_back(std::make_unique<const NcProgram>(project, program, file));
+    });
   });
-  return *programs_;
 }
 
 const Lathes& Analyses::lathes(const Project& project) {
-  if (!lathes_) lathes_ = findLathes(project);
-  return *lathes_;
+  return lathes_.get([&](auto& into) { into = findLathes(project); });
 }
 
 const Probing& Analyses::probing(const Project& project) {
-  if (!probing_) probing_.emplace(project);
-  return *probing_;
+  return probing_.get([&](auto& into) { into.emplace(project); });
 }
 
 const ToolLengths& Analyses::toolLengths(const Project& project) {
-  if (!toolLengths_) toolLengths_.emplace(project);
-  return *toolLengths_;
+  return toolLengths_.get([&](auto& into) { into.emplace(project); });
 }
 
 const Askers& Analyses::askers(const Project& project) {
-  if (!askers_) askers_.emplace(project);
-  return *askers_;
+  return askers_.get([&](auto& into) { into.emplace(project); });
 }
 
 const std::vector<Siblings>& Analyses::siblings(const Project& project) {
-  if (!siblings_) siblings_ = findSiblings(project);
-  return *siblings_;
+  return siblings_.get([&](auto& into) { into = findSiblings(project); });
 }
 
 const std::vector<ProgBlock>& Analyses::blocks(const std::vector<compost::Statement>& statements,
@@ -63,14 +57,16 @@ const std::vector<NameUse>& Analyses::names(const gibbs::Macro& macro, const Pro
 }
 
 const std::set<std::uint32_t>& Analyses::called(const macrob::File& file, const Project& project) {
-  if (!called_) {
-    called_.emplace();
+  const auto& all = called_.get([&](auto& into) {
+    into.emplace();
     eachProgram(project, [&](const ir::Program& program, const macrob::File& where) {
       for (const ir::ProgramStatement& statement : program.body)
-        if (const auto number = calledProgram(statement)) (*called_)[&where].insert(*number);
+        if (const auto number = calledProgram(statement)) (*into)[&where].insert(*number);
     });
-  }
-  return (*called_)[&file];
+  });
+  static const std::set<std::uint32_t> kNone;
+  const auto found = all.find(&file);
+  return found == all.end() ? kNone : found->second;
 }
 
 const SharedInputs& sharedOf(const Project& project) {

@@ -3,6 +3,7 @@
 
 #include "lint/AskedVariables.h"
 #include "lint/Lathe.h"
+#include "lint/Lazy.h"
 #include "lint/MacroNames.h"
 #include "lint/NcProgram.h"
 #include "lint/Probing.h"
@@ -19,7 +20,8 @@ namespace dotek::lint {
 
 struct PostFile;
 
-// Belongs to one project; one thread uses it.
+// Belongs to one project. Rules that look at one NC program run on several threads and may ask for what is
+// Lazy; what is kept by address is for the rules that look at all inputs, which run on one.
 class Analyses {
 public:
   // A folder was named: programs that others call are looked for among those of the project, and nowhere
@@ -46,17 +48,17 @@ public:
   std::vector<const PostFile*> posts;
 
 private:
-  std::optional<SharedInputs> shared_;
-  std::optional<NcPrograms> programs_;
-  std::optional<Lathes> lathes_;
-  std::optional<Probing> probing_;
-  std::optional<ToolLengths> toolLengths_;
-  std::optional<Askers> askers_;
-  std::optional<std::vector<Siblings>> siblings_;
+  Lazy<SharedInputs> shared_;
+  Lazy<NcPrograms> programs_;
+  Lazy<Lathes> lathes_;
+  Lazy<Probing> probing_;
+  Lazy<ToolLengths> toolLengths_;
+  Lazy<Askers> askers_;
+  Lazy<std::vector<Siblings>> siblings_;
+  Lazy<std::map<const macrob::File*, std::set<std::uint32_t>>> called_;
   std::map<const std::vector<compost::Statement>*, std::vector<ProgBlock>> blocks_;
   std::map<const compost::Program*, PartRoutines> parts_;
   std::map<const gibbs::Macro*, std::vector<NameUse>> names_;
-  std::optional<std::map<const macrob::File*, std::set<std::uint32_t>>> called_;
 };
 
 } // namespace dotek::lint

@@ -5,26 +5,28 @@
 namespace dotek::lint {
 
 const ir::ProgramFlow& NcProgram::flow() const {
-  if (!flow_) flow_ = ir::flowOf(program.body);
-  return *flow_;
+  return flow_.get([&](auto& into) { into = ir::flowOf(program.body); });
 }
 
 const std::vector<std::optional<DistanceMode>>& NcProgram::modes() const {
-  if (!modes_) modes_ = distanceModes(program.body, flow());
-  return *modes_;
+  return modes_.get([&](auto& into) { into = distanceModes(program.body, flow()); });
 }
 
 const std::vector<std::optional<Machining>>& NcProgram::machining() const {
-  if (machining_) return *machining_;
-  const Probing& probing = probingOf(project);
-  machining_ = machiningBefore(program, flow(), [&](const ir::ProgramStatement& statement) {
-    using Kind = ProbeStep::Kind;
-    if (skipOf(statement) != nullptr) return true;
-    const ProbeStep step = probing.step(statement);
-    return step.kind == Kind::On || step.kind == Kind::Protected || step.kind == Kind::Measure ||
-           (step.program != 0 && probing.skips(step.program));
+  return machining_.get([&](auto& into) {
+    const Probing& probing = probingOf(project);
+    into = machiningBefore(program, flow(), [&](const ir::ProgramStatement& statement) {
+      using Kind = ProbeStep::Kind;
+      if (skipOf(statement) != nullptr) return true;
+      const ProbeStep step = probing.step(statement);
+      return step.kind == Kind::On || step.kind == Kind::Protected || step.kind == Kind::Measure ||
+             (step.program != 0 && probing.skips(step.program));
+    });
   });
-  return *machining_;
+}
+
+const std::vector<std::optional<ProbeState>>& NcProgram::probeStates() const {
+  return probeStates_.get([&](auto& into) { into = probingOf(project).states(program.body, flow()); });
 }
 
 std::span<const VariableRead> NcProgram::reads(std::size_t statement) const {
@@ -34,40 +36,38 @@ std::span<const VariableRead> NcProgram::reads(std::size_t statement) const {
 }
 
 const NcProgram::Reads& NcProgram::allReads() const {
-  if (reads_) return *reads_;
-  Reads& reads = reads_.emplace();
-  reads.ends.reserve(program.body.size());
-  reads.all.reserve(program.body.size() * 2);
-  for (std::size_t i = 0; i < program.body.size(); ++i) {
-    bool computed = false;
-    eachRead(
-        program.body[i],
-        [&](std::uint32_t number, SourceRange range) {
-          reads.all.push_back({number, range});
-        },
-        [&](const ir::MachineVariable&) { computed = true; });
-    reads.ends.push_back(reads.all.size());
-    if (computed) reads.computed.push_back(i);
-  }
-  return reads;
+  return reads_.get([&](auto& into) {
+    Reads& reads = into.emplace();
+    reads.ends.reserve(program.body.size());
+    reads.all.reserve(program.body.size() * 2);
+    for (std::size_t i = 0; i < program.body.size(); ++i) {
+      bool computed = false;
+      eachRead(
+          program.body[i],
+          [&](std::uint32_t number, SourceRange range) {
+            reads.all.push_back({number, range});
+          },
+          [&](const ir::MachineVariable&) { computed = true; });
+      reads.ends.push_back(reads.all.size());
+      if (computed) reads.computed.push_back(i);
+    }
+  });
 }
 
 const std::vector<std::size_t>& NcProgram::skips() const {
-  if (skips_) return *skips_;
-  std::vector<std::size_t>& out = skips_.emplace();
-  for (std::size_t i = 0; i < program.body.size(); ++i)
-    if (skipOf(program.body[i]) != nullptr) out.push_back(i);
-  return out;
+  return skips_.get([&](auto& into) {
+    into.emplace();
+    for (std::size_t i = 0; i < program.body.size(); ++i)
+      if (skipOf(program.body[i]) != nullptr) into->push_back(i);
+  });
 }
 
 const IndirectWrites& NcProgram::writes() const {
-  if (!writes_) writes_.emplace(program);
-  return *writes_;
+  return writes_.get([&](auto& into) { into.emplace(program); });
 }
 
 const std::set<std::uint32_t>& NcProgram::otherCodes() const {
-  if (!otherCodes_) otherCodes_ = codesOfOtherGroups(program);
-  return *otherCodes_;
+  return otherCodes_.get([&](auto& into) { into = codesOfOtherGroups(program); });
 }
 
 } // namespace dotek::lint

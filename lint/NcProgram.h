@@ -2,6 +2,7 @@
 #pragma once
 
 #include "lint/IndirectWrites.h"
+#include "lint/Lazy.h"
 #include "lint/Machining.h"
 #include "lint/Skips.h"
 
@@ -18,7 +19,7 @@ struct VariableRead {
   SourceRange range; // no place: the statement is all that is known
 };
 
-// What is passed outlives it; one thread uses it. Everything is computed when first asked for.
+// What is passed outlives it. Everything is computed when first asked for; several threads may ask.
 class NcProgram {
 public:
   NcProgram(const Project& looked, const ir::Program& lowered, const macrob::File& parsed)
@@ -33,6 +34,8 @@ public:
   const std::vector<std::optional<DistanceMode>>& modes() const;
   // As machiningBefore() says.
   const std::vector<std::optional<Machining>>& machining() const;
+  // As Probing::states() says.
+  const std::vector<std::optional<ProbeState>>& probeStates() const;
   // As eachRead() says, of the statement with this index.
   std::span<const VariableRead> reads(std::size_t statement) const;
   // Those of all statements, one after the other.
@@ -53,13 +56,14 @@ private:
   };
   const Reads& allReads() const;
 
-  mutable std::optional<ir::ProgramFlow> flow_;
-  mutable std::optional<std::vector<std::optional<DistanceMode>>> modes_;
-  mutable std::optional<std::vector<std::optional<Machining>>> machining_;
-  mutable std::optional<Reads> reads_;
-  mutable std::optional<std::vector<std::size_t>> skips_;
-  mutable std::optional<IndirectWrites> writes_;
-  mutable std::optional<std::set<std::uint32_t>> otherCodes_;
+  Lazy<ir::ProgramFlow> flow_;
+  Lazy<std::vector<std::optional<DistanceMode>>> modes_;
+  Lazy<std::vector<std::optional<Machining>>> machining_;
+  Lazy<std::vector<std::optional<ProbeState>>> probeStates_;
+  Lazy<Reads> reads_;
+  Lazy<std::vector<std::size_t>> skips_;
+  Lazy<IndirectWrites> writes_;
+  Lazy<std::set<std::uint32_t>> otherCodes_;
 };
 
 using NcPrograms = std::vector<std::unique_ptr<const NcProgram>>;

@@ -223,9 +223,10 @@ ProbeStep Probing::step(const ir::ProgramStatement& statement) const {
 }
 
 template <ir::AnyStatement Statement>
-std::vector<std::optional<ProbeState>> Probing::statesOf(const std::vector<Statement>& body) const {
+std::vector<std::optional<ProbeState>> Probing::statesOf(const std::vector<Statement>& body,
+                                                         const ir::ProgramFlow& flow) const {
   return ir::factsBefore<ProbeState>(
-      body, ProbeState::AsBefore,
+      body, flow, ProbeState::AsBefore,
       [&](std::size_t at, std::size_t, ProbeState before) {
         switch (step(body[at]).kind) {
         case ProbeStep::Kind::On: return ProbeState::On;
@@ -246,16 +247,13 @@ std::vector<std::optional<ProbeState>> Probing::statesOf(const std::vector<State
       });
 }
 
-const std::vector<std::optional<ProbeState>>&
-Probing::states(const std::vector<ir::CycleStatement>& body) const {
-  const auto known = states_.find(&body);
-  return known != states_.end() ? known->second : states_.emplace(&body, statesOf(body)).first->second;
+std::vector<std::optional<ProbeState>> Probing::states(const std::vector<ir::CycleStatement>& body) const {
+  return statesOf(body, ir::flowOf(body));
 }
 
-const std::vector<std::optional<ProbeState>>&
-Probing::states(const std::vector<ir::ProgramStatement>& body) const {
-  const auto known = states_.find(&body);
-  return known != states_.end() ? known->second : states_.emplace(&body, statesOf(body)).first->second;
+std::vector<std::optional<ProbeState>> Probing::states(const std::vector<ir::ProgramStatement>& body,
+                                                       const ir::ProgramFlow& flow) const {
+  return statesOf(body, flow);
 }
 
 bool Probing::probes(const ir::Program& program) const {

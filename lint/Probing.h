@@ -7,7 +7,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <optional>
 #include <set>
 #include <vector>
@@ -46,9 +45,11 @@ public:
 
   ProbeStep step(const ir::CycleStatement& statement) const;
   ProbeStep step(const ir::ProgramStatement& statement) const;
-  // State before each statement; nothing where no path leads. `body` is of the project: computed once.
-  const std::vector<std::optional<ProbeState>>& states(const std::vector<ir::CycleStatement>& body) const;
-  const std::vector<std::optional<ProbeState>>& states(const std::vector<ir::ProgramStatement>& body) const;
+  // State before each statement; nothing where no path leads. Of a program NcProgram keeps it; `flow` is that
+  // of the body.
+  std::vector<std::optional<ProbeState>> states(const std::vector<ir::CycleStatement>& body) const;
+  std::vector<std::optional<ProbeState>> states(const std::vector<ir::ProgramStatement>& body,
+                                                const ir::ProgramFlow& flow) const;
   // Calls some macro of a probing set.
   bool probes(const ir::Program& program) const;
   // The program is one of these files, and a G31 is in it or in one that it calls.
@@ -64,7 +65,8 @@ private:
   ProbeStep callStep(const ir::Call& call) const;
   template <ir::AnyStatement Statement> ProbeStep stepOf(const Statement& statement) const;
   template <ir::AnyStatement Statement>
-  std::vector<std::optional<ProbeState>> statesOf(const std::vector<Statement>& body) const;
+  std::vector<std::optional<ProbeState>> statesOf(const std::vector<Statement>& body,
+                                                  const ir::ProgramFlow& flow) const;
 
   void readOwn();
 
@@ -75,7 +77,6 @@ private:
   // Without --control a code of the builder counts as the one known profile that has it says, where the files
   // probe at all: M31 is a conveyor elsewhere.
   bool guessCodes_ = false;
-  mutable std::map<const void*, std::vector<std::optional<ProbeState>>> states_; // by the address of the body
 };
 
 // Computed once a project.

@@ -3,15 +3,41 @@
 #include "frontend/macrob/Check.h"
 #include "lint/Lathe.h"
 #include "lint/NcProgram.h"
+#include "support/messages/Common.h"
 
 #include <algorithm>
+#include <atomic>
 #include <future>
+#include <iterator>
+#include <optional>
 #include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
 
 namespace dotek::lint {
+
+void moveInto(Diagnostics& to, Diagnostics& from) {
+  const std::vector<Diagnostic>& all = from.all();
+  for (Diagnostic& one : from.all()) {
+    if (one.code != diag::TooManyFindings::code) {
+      // What was found there already gets the notes as well, as it does from a rule.
+      std::vector<DiagnosticNote> notes = std::exchange(one.notes, {});
+      std::optional<Fix> fix = std::exchange(one.fix, std::nullopt);
+      Diagnostic& kept = to.add(std::move(one));
+      std::move(notes.begin(), notes.end(), std::back_inserter(kept.notes));
+      if (fix) kept.fix = std::move(fix);
+      continue;
+    }
+    // It stands for a finding that was one too many.
+    const auto of = std::find_if(all.begin(), all.end(), [&](const Diagnostic& other) {
+      return other.range.file == one.range.file && from.full(other.code, other.range.file) &&
+             one.message.find(fmt::format("`{}`", other.code)) != std::string::npos;
+    });
+    if (of != all.end()) to.add({of->code, one.severity, one.range, one.message, {}, {}});
+  }
+}
+
 namespace {
 
 // Where the findings of rules go.
@@ -20,45 +46,83 @@ struct Findings {
   Diagnostics& separate;
 };
 
-// Rules with the member that is set, and where their findings go.
+// A rule with the member that is set.
 template <class Run> struct Chosen {
   Run run;
-  Report report;
+  const NamedRule* rule;
   bool ofMills;
+
+  Report reportTo(const Findings& to) const {
+    return {rule->id, rule->rule->severity, rule->rule->shared ? to.shared : to.separate};
+  }
 };
 template <class Run>
-std::vector<Chosen<Run>> chosen(Run Rule::*member, const std::vector<const NamedRule*>& rules,
-                                const Findings& to) {
+std::vector<Chosen<Run>> chosen(Run Rule::*member, const std::vector<const NamedRule*>& rules) {
   std::vector<Chosen<Run>> out;
   for (const NamedRule* named : rules)
     if (const Run run = named->rule->*member; run != nullptr)
-      out.push_back({run,
-                     Report(named->id, named->rule->severity, named->rule->shared ? to.shared : to.separate),
-                     isOfMills(named->id)});
+      out.push_back({run, named, isOfMills(named->id)});
   return out;
 }
 
 void runParsed(const Project& project, const std::vector<const NamedRule*>& rules, const Lathes& lathes,
                const Findings& to) {
-  auto parsed = chosen(&Rule::parsed, rules, to);
+  const auto parsed = chosen(&Rule::parsed, rules);
   if (parsed.empty()) return;
   for (const NcFile& nc : project.programs)
     for (const macrob::Program& program : nc.file->programs) {
       const macrob::CheckedProgram checked(program, project.control, project.sources, project.controls);
-      for (auto& [run, report, ofMills] : parsed)
-        if (!ofMills || !lathes.contains(nc.file)) run(checked, report);
+      for (const auto& one : parsed) {
+        if (one.ofMills && lathes.contains(nc.file)) continue;
+        Report report = one.reportTo(to);
+        one.run(checked, report);
+      }
     }
 }
 
-void runOthers(const Project& project, const std::vector<const NamedRule*>& rules, const Lathes& lathes,
-               const Findings& to) {
-  if (auto lowered = chosen(&Rule::program, rules, to); !lowered.empty())
-    for (const auto& nc : programsOf(project))
-      for (auto& [run, report, ofMills] : lowered)
-        if (!ofMills || !lathes.contains(&nc->file)) run(*nc, report);
-  for (auto& [run, report, ofMills] : chosen(&Rule::check, rules, to))
-    run(project, report);
+void runChecks(const Project& project, const std::vector<const NamedRule*>& rules, const Findings& to) {
+  for (const auto& one : chosen(&Rule::check, rules)) {
+    Report report = one.reportTo(to);
+    one.run(project, report);
+  }
 }
+
+// The programs of a project one by one, by whichever thread has time. What is found in each is kept apart, so
+// that it does not matter who looked.
+class Programs {
+public:
+  Programs(const Project& project, const std::vector<const NamedRule*>& rules, const Lathes& lathes)
+      : all_(programsOf(project)), rules_(chosen(&Rule::program, rules)), lathes_(lathes),
+        found_(rules_.empty() ? 0 : all_.size()) {}
+
+  void run() {
+    for (std::size_t at = next_++; at < found_.size(); at = next_++) {
+      const NcProgram& nc = *all_[at];
+      for (const auto& one : rules_) {
+        if (one.ofMills && lathes_.contains(&nc.file)) continue;
+        Report report = one.reportTo({found_[at].shared, found_[at].separate});
+        one.run(nc, report);
+      }
+    }
+  }
+
+  void addTo(const Findings& to) {
+    for (Found& one : found_) {
+      moveInto(to.shared, one.shared);
+      moveInto(to.separate, one.separate);
+    }
+  }
+
+private:
+  struct Found {
+    Diagnostics shared, separate;
+  };
+  const NcPrograms& all_;
+  std::vector<Chosen<decltype(Rule::program)>> rules_;
+  const Lathes& lathes_;
+  std::vector<Found> found_; // by program
+  std::atomic<std::size_t> next_ = 0;
+};
 
 // A thread costs as much as the rules on some hundred blocks.
 bool isLong(const Project& project) {
@@ -89,25 +153,33 @@ void runRules(const Project& project, Diagnostics& shared, Diagnostics& separate
     if (wanted(named)) all.push_back(&named);
   const Lathes& lathes = lathesOf(project);
   const Findings to{shared, separate};
+  Programs programs(project, all, lathes);
   if (!isLong(project)) {
     runParsed(project, all, lathes, to);
-    runOthers(project, all, lathes, to);
+    programs.run();
+    programs.addTo(to);
+    runChecks(project, all, to);
     return;
   }
-  // Rules on what was parsed see one CheckedProgram each, which is theirs, and else what nobody changes any
-  // more: trees, sources, profiles. What is computed when first asked for (Analyses, NcProgram) stays with
-  // the thread of the others.
-  Diagnostics sharedBeside, separateBeside;
-  const auto parsed = [&] { runParsed(project, all, lathes, {sharedBeside, separateBeside}); };
-  std::future<void> beside = startBeside(parsed);
-  runOthers(project, all, lathes, to);
+  // The other thread sees trees, sources and profiles, which nobody changes any more, a CheckedProgram that
+  // is its own, and what is Lazy. Rules that look at all inputs stay with this one.
+  Diagnostics sharedParsed, separateParsed, sharedChecks, separateChecks;
+  const auto parsed = [&] { runParsed(project, all, lathes, {sharedParsed, separateParsed}); };
+  std::future<void> beside = startBeside([&] {
+    parsed();
+    programs.run();
+  });
+  runChecks(project, all, {sharedChecks, separateChecks});
+  programs.run();
   if (beside.valid())
     beside.get();
   else
     parsed();
-  for (const auto& [from, into] : {std::pair{&sharedBeside, &shared}, {&separateBeside, &separate}})
-    for (Diagnostic& one : from->all())
-      into->add(std::move(one));
+  moveInto(shared, sharedParsed);
+  moveInto(separate, separateParsed);
+  programs.addTo(to);
+  moveInto(shared, sharedChecks);
+  moveInto(separate, separateChecks);
 }
 
 } // namespace dotek::lint

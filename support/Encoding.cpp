@@ -48,6 +48,8 @@ void appendUtf8(std::string& out, char32_t c) {
   }
 }
 
+constexpr std::uint64_t kHigh = 0x8080808080808080; // of eight bytes those that are no ASCII
+
 // Length of the well-formed UTF-8 sequence at `at`, 0 if there is none.
 std::size_t sequenceLength(std::string_view s, std::size_t at) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(s[i]); };
@@ -89,6 +91,12 @@ std::string_view encodingName(Encoding encoding) {
 
 bool isUtf8(std::string_view bytes) {
   for (std::size_t at = 0; at < bytes.size();) {
+    std::uint64_t eight = kHigh;
+    if (at + sizeof eight <= bytes.size()) std::memcpy(&eight, bytes.data() + at, sizeof eight);
+    if ((eight & kHigh) == 0) {
+      at += sizeof eight;
+      continue;
+    }
     const std::size_t length = sequenceLength(bytes, at);
     if (length == 0) return false;
     at += length;
@@ -98,7 +106,6 @@ bool isUtf8(std::string_view bytes) {
 
 std::size_t charactersOf(std::string_view bytes, Encoding encoding) {
   if (encoding != Encoding::Utf8) return bytes.size();
-  constexpr std::uint64_t kHigh = 0x8080808080808080;
   std::size_t count = 0;
   for (std::size_t at = 0; at < bytes.size();) {
     std::uint64_t eight = kHigh;

@@ -17,9 +17,9 @@ SourceFile::SourceFile(std::string name, std::string bytes, Encoding encoding, s
   if (bytes_.starts_with("\xEF\xBB\xBF")) bytes_.erase(0, 3);
   lineStarts_.push_back(0);
   for (std::size_t i = 0; i < bytes_.size(); ++i) {
+    if (bytes_[i] != '\n' && bytes_[i] != '\r') continue;
     const bool crlf = bytes_[i] == '\r' && i + 1 < bytes_.size() && bytes_[i + 1] == '\n';
-    if (bytes_[i] == '\n' || (bytes_[i] == '\r' && !crlf))
-      lineStarts_.push_back(static_cast<std::uint32_t>(i + 1));
+    if (!crlf) lineStarts_.push_back(static_cast<std::uint32_t>(i + 1));
   }
 }
 

@@ -285,8 +285,8 @@ constexpr std::uint32_t kFirstCommonNumber = 100;
 // What a program writes with `#`, to find the place where it is lost.
 class Hashes {
 public:
-  // `used`: its variables.
-  Hashes(const CheckedProgram& input, const std::set<std::uint32_t>& used) : used_(used) {
+  // `used`: its variables, ascending.
+  Hashes(const CheckedProgram& input, const std::vector<std::uint32_t>& used) : used_(used) {
     for (const CheckedProgram::Part& part : input.parts)
       if (std::holds_alternative<nc::Operation>(part.expression->node) && isShort(part.expression->range))
         operations_.insert(printWithoutBrackets(*part.expression));
@@ -326,10 +326,10 @@ public:
   }
 
   // The number alone is that of one of these variables.
-  static bool isVariableOf(const std::set<std::uint32_t>& used, const Expression& side) {
+  static bool isVariableOf(const std::vector<std::uint32_t>& used, const Expression& side) {
     const auto* number = std::get_if<nc::Number>(&side.node);
     return number != nullptr && !number->point && side.brackets == 0 && number->value < 1e6 &&
-           used.contains(static_cast<std::uint32_t>(number->value));
+           std::binary_search(used.begin(), used.end(), static_cast<std::uint32_t>(number->value));
   }
 
   static void tell(SourceRange range, const std::string& digits, const std::string& text, Report& report) {
@@ -352,7 +352,7 @@ private:
     }
   }
 
-  const std::set<std::uint32_t>& used_;
+  const std::vector<std::uint32_t>& used_;
   std::set<const Expression*> numbers_;
   std::set<std::string> operations_;
 };
@@ -389,9 +389,10 @@ std::optional<std::uint32_t> offsetWritten(const Block& block) {
 } // namespace
 
 void hashMissing(const CheckedProgram& input, Report& report) {
-  std::set<std::uint32_t> used;
+  std::vector<std::uint32_t> used;
   for (const CheckedProgram::Part& part : input.parts)
-    if (const auto number = variableNumber(*part.expression)) used.insert(*number);
+    if (const auto number = variableNumber(*part.expression)) used.push_back(*number);
+  std::sort(used.begin(), used.end());
   std::optional<Hashes> hashes; // most programs need none
   for (const CheckedProgram::Part& part : input.parts) {
     const auto* operation = std::get_if<nc::Operation>(&part.expression->node);

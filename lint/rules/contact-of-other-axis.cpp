@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 
 namespace dotek::lint::rule {
 namespace {
@@ -57,11 +58,9 @@ AxisSet touchedIn(const std::vector<ir::ProgramStatement>& body, std::size_t loo
 void check(const NcProgram& nc, Report& report) {
   const ir::Program& program = nc.program;
   const auto& body = program.body;
-  const Reads reads(body);
-  const bool skips = std::any_of(body.begin(), body.end(),
-                                 [](const ir::ProgramStatement& s) { return skipOf(s) != nullptr; });
   // A macro may evaluate what its caller measured.
-  if (!skips && !endsProgram(program)) return;
+  if (nc.skips().empty() && !endsProgram(program)) return;
+  std::optional<Reads> reads;
   const auto moved = ir::factsBefore<AxisSet>(
       body, nc.flow(), kNone,
       [&](std::size_t at, std::size_t to, AxisSet axes) -> AxisSet {
@@ -86,7 +85,10 @@ void check(const NcProgram& nc, Report& report) {
       if (!axis || told || (!none && (*moved[i] & *axis) != 0)) continue;
       const auto* store = std::get_if<ir::Store>(&body[i].node);
       const auto kept = store == nullptr ? std::nullopt : storedNumber(body[i]);
-      if (!none && kept && reads.onlyAlongAngle(*kept)) continue;
+      if (!none && kept) {
+        if (!reads) reads.emplace(body);
+        if (reads->onlyAlongAngle(*kept)) continue;
+      }
       told = true;
       const SourceRange place = range.hasPlace() ? range : body[i].origin.range();
       if (none)

@@ -24,6 +24,10 @@ std::optional<Distance> modeOf(const ir::ProgramStatement& statement) {
 
 void check(const NcProgram& nc, Report& report) {
   const ir::Program& program = nc.program;
+  const ir::ProgramStatement* set = nullptr;
+  for (const ir::ProgramStatement& statement : program.body)
+    if (modeOf(statement) == Distance::Incremental) set = &statement;
+  if (set == nullptr) return;
   const auto before = ir::factsBefore<Distance>(
       program.body, nc.flow(), Distance::AsBefore,
       [&](std::size_t at, std::size_t, Distance distance) {
@@ -37,13 +41,10 @@ void check(const NcProgram& nc, Report& report) {
         into = merged;
         return changed;
       });
-  const ir::ProgramStatement* set = nullptr;
-  for (const ir::ProgramStatement& statement : program.body)
-    if (modeOf(statement) == Distance::Incremental) set = &statement;
   for (std::size_t i = 0; i < program.body.size(); ++i) {
     if (!std::holds_alternative<ir::Exit>(program.body[i].node) || !before[i]) continue;
     // The block of the M99 may hold a G90 before it.
-    if (*before[i] != Distance::Incremental || set == nullptr) continue;
+    if (*before[i] != Distance::Incremental) continue;
     report
         .at(program.body[i].origin.range(),
             "the program returns with G91 in force; the caller's next coordinates are "

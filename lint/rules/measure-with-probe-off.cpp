@@ -4,15 +4,16 @@
 namespace dotek::lint::rule {
 namespace {
 
-// A measurement that every path reaches with the probe switched off before.
-template <ir::AnyStatement Statement>
-void checkBody(const std::vector<Statement>& body, const Probing& probing, Report& report) {
-  const auto& states = probing.states(body);
+// A measurement that every path reaches with the probe switched off before. `states` gives what is before
+// each statement, and is asked where there is one.
+template <ir::AnyStatement Statement, class States>
+void checkBody(const std::vector<Statement>& body, const Probing& probing, const States& states,
+               Report& report) {
   SourceRange off;
   for (std::size_t i = 0; i < body.size(); ++i) {
     const ProbeStep step = probing.step(body[i]);
     if (step.kind == ProbeStep::Kind::Off) off = body[i].origin.range();
-    if (step.kind != ProbeStep::Kind::Measure || states[i] != ProbeState::Off) continue;
+    if (step.kind != ProbeStep::Kind::Measure || states()[i] != ProbeState::Off) continue;
     Diagnostic& finding = report.at(body[i].origin.range(),
                                     "the probe is off here: it was switched off before and not on again; the "
                                     "machine drives the stylus into the part; switch it on before");
@@ -23,11 +24,17 @@ void checkBody(const std::vector<Statement>& body, const Probing& probing, Repor
 
 void check(const Project& project, Report& report) {
   for (const Joined& joined : project.joined)
-    if (joined.lowered) checkBody(joined.lowered->body, probingOf(project), report);
+    if (joined.lowered) {
+      const Probing& probing = probingOf(project);
+      const auto states = probing.states(joined.lowered->body);
+      checkBody(
+          joined.lowered->body, probing, [&]() -> const auto& { return states; }, report);
+    }
 }
 
 void checkProgram(const NcProgram& nc, Report& report) {
-  checkBody(nc.program.body, probingOf(nc.project), report);
+  checkBody(
+      nc.program.body, probingOf(nc.project), [&]() -> const auto& { return nc.probeStates(); }, report);
 }
 
 } // namespace

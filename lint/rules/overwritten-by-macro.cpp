@@ -44,6 +44,11 @@ void check(const NcProgram& nc, Report& report) {
     return std::any_of(project.macroSets.begin(), project.macroSets.end(),
                        [&](const stdlib::MacroSet& set) { return isScratch(set, number); });
   };
+  const auto calls = [&](const ir::ProgramStatement& statement) {
+    const std::uint32_t called = probing.step(statement).program;
+    return called != 0 && setOf(called) != nullptr;
+  };
+  if (std::none_of(program.body.begin(), program.body.end(), calls)) return;
   const auto before = ir::factsBefore<State>(
       program.body, nc.flow(), State{},
       [&](std::size_t at, std::size_t, State state) {

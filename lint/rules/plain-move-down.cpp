@@ -28,7 +28,7 @@ void checkProgram(const NcProgram& nc, const Probing& probing, Report& report) {
     return probing.step(s).kind == ProbeStep::Kind::Protected;
   });
   if (!guarded) return;
-  const auto& states = probing.states(body);
+  const auto& states = nc.probeStates();
   const auto& modes = nc.modes();
   const auto heights = ir::factsBefore<Height>(
       body, nc.flow(), Height{},

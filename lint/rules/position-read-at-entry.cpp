@@ -3,6 +3,7 @@
 #include "lint/Skips.h"
 #include "stdlib/ReadAhead.h"
 
+#include <algorithm>
 #include <set>
 
 namespace dotek::lint::rule {
@@ -19,6 +20,10 @@ void check(const NcProgram& nc, Report& report) {
   // In a main program nothing moves before.
   if (endsProgram(program)) return;
   const auto& body = program.body;
+  const auto reads = nc.reads();
+  if (std::none_of(reads.begin(), reads.end(),
+                   [](const VariableRead& one) { return isPosition(one.number); }))
+    return;
   // A dwell, G31, G53 or an M code ends the reading ahead; a move of the program's own is reported elsewhere.
   const auto waited = ir::factsBefore<bool>(
       body, nc.flow(), false,

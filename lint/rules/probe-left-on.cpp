@@ -12,8 +12,8 @@ bool leaves(const ir::ProgramStatement& statement) {
 }
 
 // A path on which the probe is on at the end.
-void checkBody(const std::vector<ir::ProgramStatement>& body, const Probing& probing, Report& report) {
-  const auto& states = probing.states(body);
+void checkWays(const NcProgram& nc, const Probing& probing, Report& report) {
+  const auto& body = nc.program.body;
   const ir::ProgramStatement* on = nullptr;
   bool off = false;
   for (const ir::ProgramStatement& statement : body) {
@@ -23,6 +23,7 @@ void checkBody(const std::vector<ir::ProgramStatement>& body, const Probing& pro
   }
   // Without any switch-off the probe may be meant for the next program; a caller switches it.
   if (on == nullptr || !off) return;
+  const auto& states = nc.probeStates();
   for (std::size_t i = 0; i < body.size(); ++i) {
     if (!leaves(body[i]) || states[i] != ProbeState::On) continue;
     report
@@ -36,7 +37,7 @@ void checkBody(const std::vector<ir::ProgramStatement>& body, const Probing& pro
 void check(const NcProgram& nc, Report& report) {
   const ir::Program& program = nc.program;
   const Probing& probing = probingOf(nc.project);
-  checkBody(program.body, probing, report);
+  checkWays(nc, probing, report);
   if (!endsProgram(program)) return;
   // A main program that switches it on and never off.
   const ir::ProgramStatement* on = nullptr;

@@ -16,7 +16,7 @@ struct Unswitched {
 // The first measurement that is reached without a switch in this body.
 template <ir::AnyStatement Statement>
 SourceRange firstUnswitched(const std::vector<Statement>& body, const Probing& probing) {
-  const auto& states = probing.states(body);
+  const auto states = probing.states(body);
   for (std::size_t i = 0; i < body.size(); ++i)
     if (probing.step(body[i]).kind == ProbeStep::Kind::Measure && states[i] == ProbeState::AsBefore)
       return body[i].origin.range();
@@ -54,15 +54,16 @@ void checkCycles(const Project& project, const Probing& probing, Report& report)
 }
 
 // A program that switches the probe off, or on later, is the one that switches it.
-void checkProgram(const ir::Program& program, const Probing& probing, Report& report) {
-  const auto& states = probing.states(program.body);
+void checkProgram(const NcProgram& nc, const Probing& probing, Report& report) {
+  const ir::Program& program = nc.program;
   SourceRange first;
   SourceRange last;
   bool callsBefore = false;
   for (std::size_t i = 0; i < program.body.size(); ++i) {
     const ProbeStep step = probing.step(program.body[i]);
     if (!first.hasPlace() && step.kind == ProbeStep::Kind::Call) callsBefore = true;
-    if (step.kind == ProbeStep::Kind::Measure && states[i] == ProbeState::AsBefore && !first.hasPlace())
+    if (step.kind == ProbeStep::Kind::Measure && !first.hasPlace() &&
+        nc.probeStates()[i] == ProbeState::AsBefore)
       first = program.body[i].origin.range();
     if (step.kind == ProbeStep::Kind::On || step.kind == ProbeStep::Kind::Off)
       if (first.hasPlace() && !last.hasPlace()) last = program.body[i].origin.range();
@@ -81,7 +82,7 @@ void check(const Project& project, Report& report) {
 }
 
 void checkOne(const NcProgram& nc, Report& report) {
-  checkProgram(nc.program, probingOf(nc.project), report);
+  checkProgram(nc, probingOf(nc.project), report);
 }
 
 } // namespace

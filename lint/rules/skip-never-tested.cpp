@@ -115,6 +115,10 @@ void check(const NcProgram& nc, Report& report) {
     std::optional<Taken> taken;
     std::set<std::uint32_t> held;
     for (const std::size_t at : *after) {
+      const auto read = nc.reads(at);
+      if (std::none_of(read.begin(), read.end(),
+                       [](const VariableRead& one) { return contactAxis(one.number).has_value(); }))
+        continue;
       const auto here = takenAt(body[at], at, axesOf(*skip));
       if (!here) continue;
       if (!taken) taken = here;

@@ -10,11 +10,14 @@ namespace {
 void check(const NcProgram& nc, Report& report) {
   const ir::Program& program = nc.program;
   const auto& body = program.body;
+  const auto hasNoFeed = [&](std::size_t at) {
+    const ir::NcBlock& skip = *skipOf(body[at]);
+    return !hasWord(skip, 'F') && axesOf(skip) != 0;
+  };
+  if (std::none_of(nc.skips().begin(), nc.skips().end(), hasNoFeed)) return;
   const ir::ProgramStatement* withFeed = nullptr;
-  for (const ir::ProgramStatement& statement : body) {
-    const ir::NcBlock* skip = skipOf(statement);
-    if (skip != nullptr && hasWord(*skip, 'F') && withFeed == nullptr) withFeed = &statement;
-  }
+  for (const std::size_t at : nc.skips())
+    if (hasWord(*skipOf(body[at]), 'F') && withFeed == nullptr) withFeed = &body[at];
   const auto given = ir::factsBefore<bool>(
       body, nc.flow(), false,
       [&](std::size_t at, std::size_t, bool before) {
@@ -26,9 +29,8 @@ void check(const NcProgram& nc, Report& report) {
         into = into || other;
         return changed;
       });
-  for (std::size_t i = 0; i < body.size(); ++i) {
-    const ir::NcBlock* skip = skipOf(body[i]);
-    if (skip == nullptr || hasWord(*skip, 'F') || axesOf(*skip) == 0 || !given[i]) continue;
+  for (const std::size_t i : nc.skips()) {
+    if (!hasNoFeed(i) || !given[i]) continue;
     if (!*given[i] && endsProgram(program))
       report.at(
           body[i].origin.range(),

@@ -3,6 +3,7 @@
 #include "lint/NcProgram.h"
 #include "lint/Probing.h"
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <set>
@@ -39,7 +40,7 @@ void eachComparison(const ir::ConditionPtr& condition,
 // What one program says of its variables.
 struct Uses {
   std::set<std::uint32_t> measured; // hold a position that was read after a G31, or what is computed from one
-  std::set<std::uint32_t> computing; // are read elsewhere than in a comparison: no tolerance
+  std::array<bool, kLastLocal + 1> computing{}; // are read elsewhere than in a comparison: no tolerance
   std::map<std::uint32_t, std::vector<const ir::Store*>> stores;
   std::vector<ir::ExpressionPtr> targets; // of G31
 };
@@ -73,7 +74,7 @@ Uses usesOf(const NcProgram& nc) {
     }
     if (ir::conditionOf(body[i]) != nullptr) continue;
     for (const VariableRead& read : nc.reads(i))
-      out.computing.insert(read.number);
+      if (read.number <= kLastLocal) out.computing[read.number] = true;
   }
   return out;
 }
@@ -104,7 +105,7 @@ const ir::Binary* deviationOf(const ir::ExpressionPtr& value, const Uses& uses) 
 bool isTolerance(const ir::ExpressionPtr& bound, const Uses& uses) {
   if (const double* value = ir::constantValue(bound)) return *value > 0 && *value <= kMostTolerance;
   const auto number = bound ? variableNumber(*bound) : std::nullopt;
-  if (!number || *number == 0 || *number > kLastLocal || uses.computing.contains(*number)) return false;
+  if (!number || *number == 0 || *number > kLastLocal || uses.computing[*number]) return false;
   const auto stores = uses.stores.find(*number);
   return stores == uses.stores.end() ||
          std::all_of(stores->second.begin(), stores->second.end(), [](const ir::Store* store) {
