@@ -1,4 +1,5 @@
 #include "ir/Dataflow.h"
+#include "ir/Match.h"
 #include "lint/Skips.h"
 
 #include <algorithm>
@@ -206,7 +207,11 @@ bool usesPort(const Project& project) {
   bool out = false;
   eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
     out = out || std::any_of(program.body.begin(), program.body.end(), [](const ir::ProgramStatement& one) {
-            return std::holds_alternative<ir::Port>(one.node) || std::holds_alternative<ir::Print>(one.node);
+            return ir::match(
+                one, [](const ir::OneOf<ir::Port, ir::Print> auto&) { return true; },
+                [](const ir::OneOf<ir::NcBlock, ir::Store, ir::Comment, ir::Call, ir::Label, ir::Jump,
+                                   ir::Branch, ir::JumpTo, ir::Loop, ir::LoopEnd, ir::Exit, ir::Raise,
+                                   ir::Notice, ir::NameVariables> auto&) { return false; });
           });
   });
   return out;
