@@ -117,7 +117,7 @@ public:
         !world_->startsWithinTravel(machine))
       return outcomeOf(session_, "");
     if (watched_ != nullptr || !options_.programs.empty() || running_ || !world_->setup().call.empty() ||
-        frontend::nc::mayHoldMacros(*chunks))
+        control_->turning || frontend::nc::mayHoldMacros(*chunks))
       return runLoaded(kept, machine);
     chunks->rewind();
     // What has no block at all is read as a text: it may hold no program.

@@ -1,5 +1,6 @@
 #include "stdlib/Control.h"
 
+#include "stdlib/CodeSpan.h"
 #include "stdlib/ControlFiles.h"
 #include "stdlib/ControlReader.h"
 #include "stdlib/DataFiles.h"
@@ -45,6 +46,7 @@ Control ControlReader::read() {
     codeRanges(table);
   motion();
   rotation();
+  turning();
   readAhead();
   output();
   alarms();
@@ -230,6 +232,59 @@ void ControlReader::rotation() {
     control_.rotation.otherAxis = axis.choice({"turned", "as-before"}, "turned") == "turned"
                                       ? RotationFacts::Position::Turned
                                       : RotationFacts::Position::AsBefore;
+}
+
+// [turning]
+void ControlReader::turning() {
+  const ControlSection table = optional("turning");
+  if (!table) return;
+  const Origin from = origin(table);
+  TurningFacts out;
+  out.grade = from.grade;
+  out.source = from.source;
+  out.diameters =
+      table.require("x", "diameter or radius").choice({"diameter", "radius"}, "diameter") == "diameter";
+  for (const TomlValue& item : table.require("increments", "a list such as [\"XU\", \"ZW\"]").items()) {
+    const std::string pair = item.text();
+    const bool good = pair.size() == 2 &&
+                      std::string_view("XYZABC").find(pair[0]) != std::string_view::npos &&
+                      std::string_view("UVWH").find(pair[1]) != std::string_view::npos &&
+                      out.incrementOf(pair[0]) == 0 && out.axisOf(pair[1]) == 0;
+    if (good)
+      out.increments.emplace_back(pair[0], pair[1]);
+    else
+      document_.fail(
+          item.range(),
+          fmt::format("`{}` is no axis with the address of its increments, `XU` is one; each stands once",
+                      pair));
+  }
+  out.axes = table.require("axes", "the axes in the order of their variables, as XZ").text();
+  for (const char axis : out.axes)
+    if (std::string_view("XYZABC").find(axis) == std::string_view::npos ||
+        std::count(out.axes.begin(), out.axes.end(), axis) > 1)
+      document_.fail(table.range("axes"), fmt::format("`{}` are no axes, each once", out.axes));
+  for (const TomlValue& item : table.require("start", "the G codes in force at power on").items()) {
+    const auto span = codeSpan(item.text());
+    if (!span || span->letter != 'G' || span->first != span->last ||
+        control_.find('G', span->first) == nullptr)
+      document_.fail(item.range(), fmt::format("`{}` is no G code of the control", item.text()));
+    else
+      out.startCodes.push_back(span->first);
+  }
+  out.offsetDigits = whole(table, "offset_digits", "how many digits of T name the offset", 1, 3);
+  control_.turning = std::move(out);
+}
+
+char TurningFacts::axisOf(char increment) const {
+  const auto at = std::find_if(increments.begin(), increments.end(),
+                               [&](const auto& pair) { return pair.second == increment; });
+  return at == increments.end() ? '\0' : at->first;
+}
+
+char TurningFacts::incrementOf(char axis) const {
+  const auto at = std::find_if(increments.begin(), increments.end(),
+                               [&](const auto& pair) { return pair.first == axis; });
+  return at == increments.end() ? '\0' : at->second;
 }
 
 const AlarmInfo* Control::find(Alarm alarm) const {

@@ -91,7 +91,16 @@ enum class Arithmetic : std::uint8_t { Double, Decimal8 };
   X(ProbeOn, "probe-on")                                                                                     \
   X(ProbeOff, "probe-off")                                                                                   \
   X(SubprogramCall, "subprogram-call")                                                                       \
-  X(Return, "return")
+  X(Return, "return")                                                                                        \
+  X(Thread, "thread")              /* of a lathe: straight, at the lead F */                                 \
+  X(TurningCycle, "turning-cycle") /* the single cycles of a lathe: along Z, */                              \
+  X(ThreadingCycle, "threading-cycle")                                                                       \
+  X(FacingCycle, "facing-cycle")     /* along X */                                                           \
+  X(ContourFinish, "contour-finish") /* G70 */                                                               \
+  X(ContourRough, "contour-rough")   /* G71, G72, G73: from a contour given by P and Q */                    \
+  X(PeckAlongZ, "peck-along-z")      /* G74 */                                                               \
+  X(PeckAlongX, "peck-along-x")      /* G75 */                                                               \
+  X(ThreadPasses, "thread-passes")   /* G76 */
 
 enum class Function : std::uint8_t {
 #define DOTEK_FUNCTION(id, name) id,
@@ -238,6 +247,22 @@ struct PmcWindow {
   std::uint32_t address = 0, byte = 0, word = 0, doubleWord = 0; // a variable that is missing: 0
 };
 
+// What the control of a lathe has of its own.
+struct TurningFacts {
+  // The axis and the address of its increments: {'X', 'U'}. There are no modes of distance then.
+  std::vector<std::pair<char, char>> increments;
+  bool diameters = true;                 // X and its increment count diameters; I, K and R never do
+  std::string axes;                      // in the order in which variables number them: #5041 is the first
+  std::vector<std::uint32_t> startCodes; // G codes in force at power on, times ten, where not as on a mill
+  std::uint32_t offsetDigits = 2;        // of T, the last ones: the number of the offset
+  std::string grade;
+  std::string source;
+
+  // The axis whose increment the address is; 0: it is none.
+  char axisOf(char increment) const;
+  char incrementOf(char axis) const;
+};
+
 // The macros of a set as the maker of the control delivers them: the same calls, other variables.
 struct MacroPackage {
   std::string set; // of the numbers that it is delivered with elsewhere
@@ -298,6 +323,7 @@ struct Control {
   std::optional<bool> printPadding;    // DPRNT writes blanks for missing digits; nothing: not known
   std::vector<AlarmInfo> alarms;       // each alarm once
   std::vector<CodeInfo> codes;         // G and M, in the order of the file; each letter and code once
+  std::optional<TurningFacts> turning; // nothing: a mill
 
   // The address counts a length, an angle or seconds.
   bool isLength(char letter) const { return ir::isAddressIn(lengths, letter); }

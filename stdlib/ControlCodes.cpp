@@ -98,7 +98,7 @@ char letterOf(Function function) {
   if (function == Function::Other || function == Function::ProbeOn || function == Function::ProbeOff ||
       function == Function::Auxiliary)
     return 0;
-  return function >= Function::Stop ? 'M' : 'G';
+  return function >= Function::Stop && function <= Function::Return ? 'M' : 'G'; // those of a lathe follow
 }
 
 } // namespace

@@ -72,6 +72,7 @@ private:
   void programs();
   void motion();
   void rotation();
+  void turning();
 
   // ControlMerge.cpp
   void removals();

@@ -82,6 +82,10 @@ template <class Archive> void fields(Archive& archive, PmcWindow& it) {
   auto& [area, bytes, address, byte, word, doubleWord] = it;
   archive(area, bytes, address, byte, word, doubleWord);
 }
+template <class Archive> void fields(Archive& archive, TurningFacts& it) {
+  auto& [increments, diameters, axes, startCodes, offsetDigits, grade, source] = it;
+  archive(increments, diameters, axes, startCodes, offsetDigits, grade, source);
+}
 template <class Archive> void fields(Archive& archive, MacroPackage& it) {
   auto& [set, title, shift, calibrationFirst, calibrationLast, radiusX, radiusY] = it;
   archive(set, title, shift, calibrationFirst, calibrationLast, radiusX, radiusY);
@@ -92,13 +96,13 @@ template <class Archive> void fields(Archive& archive, Control& it) {
          readOnly, toolOffsets, functions, alarmFirst, alarmLast, alarmShown, alarmLength, programLast,
          colonNames, programNames, sequenceLast, variables, withToolLength, arcTolerance, repeatLetter,
          rotation, callDepth, repeatInProgram, callCodes, readAheadStops, state, window, package,
-         printPadding, alarms, codes] = it;
+         printPadding, alarms, codes, turning] = it;
   archive(name, title, origin, decimal, decimalGrade, arithmetic, lengths, increment, decimals, integerDigits,
           digits, ifThen, joinedConditions, thenGoto, bareFunctions, bracketDepth, locals, macroLevels,
           common, readOnly, toolOffsets, functions, alarmFirst, alarmLast, alarmShown, alarmLength,
           programLast, colonNames, programNames, sequenceLast, variables, withToolLength, arcTolerance,
           repeatLetter, rotation, callDepth, repeatInProgram, callCodes, readAheadStops, state, window,
-          package, printPadding, alarms, codes);
+          package, printPadding, alarms, codes, turning);
 }
 
 namespace {

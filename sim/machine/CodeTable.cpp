@@ -21,6 +21,12 @@ Effect effectOf(const stdlib::CodeInfo& info) {
   case Function::Feed: return {kMotion, kFeed, Code::Plain};
   case Function::ArcClockwise: return {kMotion, kArcClockwise, Code::Plain};
   case Function::ArcCounterClockwise: return {kMotion, kArcCounterClockwise, Code::Plain};
+  case Function::Thread: return {kMotion, kThread, Code::Long};
+  case Function::TurningCycle: return {kMotion, kTurningCycle, Code::Long};
+  case Function::ThreadingCycle: return {kMotion, kThreadingCycle, Code::Long};
+  case Function::FacingCycle: return {kMotion, kFacingCycle, Code::Long};
+  case Function::SurfaceSpeedOn: return {kSurface, 1, Code::Long};
+  case Function::SurfaceSpeedOff: return {kSurface, 0, Code::Long};
   case Function::PlaneXY: return {kPlane, 0, Code::Plain};
   case Function::PlaneZX: return {kPlane, 1, Code::Plain};
   case Function::PlaneYZ: return {kPlane, 2, Code::Plain};
@@ -53,6 +59,11 @@ Effect effectOf(const stdlib::CodeInfo& info) {
   case Function::MachineCoordinates:
   case Function::ReferenceReturn:
   case Function::SecondReferenceReturn:
+  case Function::ContourFinish:
+  case Function::ContourRough:
+  case Function::PeckAlongZ:
+  case Function::PeckAlongX:
+  case Function::ThreadPasses:
   case Function::MacroCall:
   case Function::ModalCall: return {kScratch, 0, Code::Long | Code::OneShot};
   default: return {};

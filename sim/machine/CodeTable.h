@@ -18,14 +18,28 @@ enum Slot : std::uint8_t {
   kDistance,
   kUnits,
   kFeedMode,
-  kComp,   // 0 off, 1 left, 2 right
-  kLength, // 0 off, 1 plus, 2 minus
-  kSystem, // 0 to 5: G54 to G59; kExtended: G54.1
-  kCanned, // 0 off, 1 a cycle, 2 back boring
-  kReturn, // 0 initial level, 1 level R
+  kComp,    // 0 off, 1 left, 2 right
+  kLength,  // 0 off, 1 plus, 2 minus
+  kSystem,  // 0 to 5: G54 to G59; kExtended: G54.1
+  kCanned,  // 0 off, 1 a cycle, 2 back boring
+  kReturn,  // 0 initial level, 1 level R
+  kSurface, // 0: S turns a minute, 1: S is the speed of the surface
   kSlots
 };
-enum Motion : std::uint8_t { kRapid, kFeed, kArcClockwise, kArcCounterClockwise };
+enum Motion : std::uint8_t {
+  kRapid,
+  kFeed,
+  kArcClockwise,
+  kArcCounterClockwise,
+  kThread, // of a lathe, as its single cycles
+  kTurningCycle,
+  kThreadingCycle,
+  kFacingCycle,
+  kMotions
+};
+constexpr bool isArc(std::uint8_t motion) {
+  return motion == kArcClockwise || motion == kArcCounterClockwise;
+}
 inline constexpr std::uint8_t kExtended = 6;
 
 struct Code {

@@ -52,7 +52,7 @@ std::string latheOf(const std::vector<const ir::Program*>& programs, std::size_t
 Bytecode compile(const std::vector<const ir::Program*>& programs, const stdlib::Control& control,
                  const SourceMap& sources, std::size_t made) {
   Compiler compiler(control, sources);
-  compiler.refuseLathe(latheOf(programs, made, sources));
+  if (!control.turning) compiler.refuseLathe(latheOf(programs, made, sources));
   for (const ir::Program* program : programs)
     compiler.add(*program);
   return compiler.finish();

@@ -18,13 +18,14 @@ using stdlib::Function;
 namespace {
 
 constexpr std::uint32_t kMoveWords = kAxisBits | ir::addressBits("GNF");
-constexpr std::uint32_t kQuickWords[4] = {kMoveWords, kMoveWords, kMoveWords | ir::addressBits("IJK"),
-                                          kMoveWords | ir::addressBits("IJK")};
+constexpr std::uint32_t kArcWords = kMoveWords | ir::addressBits("IJK");
+constexpr std::uint32_t kQuickWords[kMotions] = {kMoveWords, kMoveWords, kArcWords, kArcWords};
 
 } // namespace
 
 Machine::Machine(const stdlib::Control& control, Dialect dialect)
-    : control_(&control), dialect_(std::move(dialect)), table_(control), layout_(control) {
+    : control_(&control), turning_(control.turning ? &*control.turning : nullptr),
+      dialect_(std::move(dialect)), table_(control), layout_(control) {
   // What is in force at power on, as most machines are set: rapid, XY, absolute, mm, per minute, G54.
   for (const Function function :
        {Function::Rapid, Function::PlaneXY, Function::Absolute, Function::Metric, Function::FeedPerMinute,
@@ -36,10 +37,18 @@ Machine::Machine(const stdlib::Control& control, Dialect dialect)
   }
   if (const Code* code = &table_.g(540); code->group != 0) groups_[code->group] = 540;
   if (const Code* code = &table_.g(640); code->group != 0) groups_[code->group] = 640;
-  for (const std::uint32_t tenths : dialect_.startCodes) {
-    const Code& code = table_.g(tenths);
-    modes_[code.slot] = code.value;
-    groups_[code.group] = code.tenths;
+  const auto start = [&](const std::vector<std::uint32_t>& codes) {
+    for (const std::uint32_t tenths : codes) {
+      const Code& code = table_.g(tenths);
+      modes_[code.slot] = code.value;
+      groups_[code.group] = code.tenths;
+    }
+  };
+  start(dialect_.startCodes);
+  if (turning_ != nullptr) {
+    start(turning_->startCodes);
+    long_ = 1;
+    shown_ = 1u << 0 | 1u << 2;
   }
   needPoint_ = control.decimal == stdlib::DecimalMode::Increment ? control.lengths : 0;
   mostPlaces_ = static_cast<std::uint32_t>(control.decimals);
@@ -55,6 +64,11 @@ Machine::Machine(const stdlib::Control& control, Dialect dialect)
   if (control.window) pmc_.assign(control.window->bytes, 0);
   stack_.reserve(64);
   stack_.emplace_back();
+}
+
+void Machine::setTrace(Trace* trace) {
+  trace_ = trace;
+  if (trace != nullptr && turning_ != nullptr) trace->showLathe(turning_->diameters);
 }
 
 void Machine::setWatcher(MotionWatcher* watcher) {
@@ -145,7 +159,7 @@ bool Machine::execute(const NcWords& w) {
       widest = std::max(widest, std::abs(end[i]));
     }
   }
-  const bool arc = motion >= kArcClockwise;
+  const bool arc = isArc(motion);
   if (!(widest < widest_) || !(feed > 0 || (feed == 0 && motion == kRapid)) ||
       (arc && !plainArc(w, kPlanes[modes[kPlane]], end)))
     return executeLong(w);
@@ -209,10 +223,12 @@ bool Machine::executeLong(const NcWords& w) {
   if ((w.marks & NcWords::BlockDelete) != 0 && (deleteLevels_ >> w.deleteLevel & 1) != 0) return true;
   if ((w.marks & NcWords::TooManyCodes) != 0)
     return inconclusive(fmt::format("more than {} codes in one block", NcWords::kMostCodes));
-  if (!readCodes(w) || !checkWords(w)) return false;
-  if (!runBlock(w)) return false;
-  const bool odd = (modes_[kCanned] | modes_[kUnits]) != 0 || uncertain_ != 0 || motionForgotten_ ||
-                   feedForgotten_ || watcher_ != nullptr || rotation_.on() || afterRotation_ != 0;
+  if (!readCodes(w)) return false;
+  const NcWords& words = turning_ == nullptr ? w : turned(w);
+  if (!running() || !checkWords(words) || !runBlock(words)) return false;
+  const bool odd = turning_ != nullptr || (modes_[kCanned] | modes_[kUnits]) != 0 || uncertain_ != 0 ||
+                   motionForgotten_ || feedForgotten_ || watcher_ != nullptr || rotation_.on() ||
+                   afterRotation_ != 0;
   if (!running()) return false; // who watches has ended it
   long_ = odd ? 1 : 0;
   return true;
@@ -256,6 +272,7 @@ bool Machine::readCodes(const NcWords& w) {
       return inconclusive("Dotek does not follow scaled coordinates; write the scaled points for a run here",
                           'G', i);
     case Function::SurfaceSpeedOn:
+      if (turning_ != nullptr) break;
       return inconclusive("Dotek does not follow a spindle that turns with the position", 'G', i);
     default: break;
     }
@@ -316,13 +333,21 @@ bool Machine::checkWords(const NcWords& w) {
     case Function::DataInput: allowed |= ir::addressBits("LPR"); break;
     case Function::SecondReferenceReturn: allowed |= ir::addressBits("P"); break;
     case Function::RotationOn: allowed |= ir::addressBits("RIJK"); break;
+    case Function::ContourFinish: allowed |= ir::addressBits("PQ"); break;
+    case Function::ContourRough:
+    case Function::PeckAlongZ:
+    case Function::PeckAlongX:
+    case Function::ThreadPasses: allowed |= ir::addressBits("ADIKPQR"); break;
     default: break;
     }
   } else if (modes_[kCanned] != 0) {
     allowed |= ir::addressBits("RQPIJ");
     if (control_->repeatLetter != 0) allowed |= ir::addressBit(control_->repeatLetter);
-  } else if (modes_[kMotion] >= kArcClockwise) {
+  } else if (isArc(modes_[kMotion])) {
     allowed |= ir::addressBits("IJKR");
+  } else if (modes_[kMotion] >= kThread) {
+    if (modes_[kMotion] != kThread) allowed |= ir::addressBits("R");
+    if (modes_[kMotion] == kThread || modes_[kMotion] == kThreadingCycle) allowed |= ir::addressBits("Q");
   }
   if (modes_[kSystem] == kExtended && (block_.slots >> kSystem & 1) != 0) allowed |= ir::addressBit('P');
   // What an auxiliary code takes is its own; an axis word beside a G code could be its own, too.

@@ -78,7 +78,7 @@ public:
   // `control` outlives the machine. Nothing else is needed; the trace and the signal may be added.
   explicit Machine(const stdlib::Control& control, Dialect dialect = {});
 
-  void setTrace(Trace* trace) { trace_ = trace; }            // nullptr: quiet
+  void setTrace(Trace* trace);                               // nullptr: quiet
   void setSkipSignal(SkipSignal* signal) { skip_ = signal; } // nullptr: G31 ends the run as inconclusive
   // nullptr: nobody watches. Watched blocks take the long way. The watcher, and the signal, may end the run
   // by inconclusive().
@@ -169,6 +169,8 @@ public:
   // The last block moved an axis, or told one to move to where it is.
   bool moved() const { return moved_; }
   const stdlib::Control& control() const { return *control_; }
+  bool isLathe() const { return turning_ != nullptr; }
+  bool countsDiameters() const { return turning_ != nullptr && turning_->diameters; }
   Trace* trace() const { return trace_; }
 
   // ---- variables of macros
@@ -267,6 +269,11 @@ public:
   void switchCoolant(Coolant coolant);
   void dwellFor(double seconds);
 
+  // ---- what only lathes have (MachineTurning.cpp)
+  // The block finishes along a contour: the caller runs the blocks of P to Q, then goes back.
+  bool finishesContour(const ir::NcWords& words) const;
+  bool rapidTo(const Position& end); // in the plane ZX; false: the run has ended
+
   // ---- what only some dialects have (MachineDialect.cpp)
   const Dialect& dialect() const { return dialect_; }
   // A length of tool (mm) that no code has put in force.
@@ -333,9 +340,20 @@ private:
   bool skipMove(const ir::NcWords& words);
   bool move(const ir::NcWords& words);
   bool cannedCycle(const ir::NcWords& words);
+  const ir::NcWords& turned(const ir::NcWords& words); // U and W as increments of X and Z
+  bool takesTool(std::uint32_t number);
+  bool singleCycle(const ir::NcWords& words);
+  bool pecks(const ir::NcWords& words, std::size_t along, std::size_t across);
+  std::optional<double> pecked(const ir::NcWords& words, char letter); // in mm; nothing: the run has ended
+  bool refusedCycle(const ir::NcWords& words);
+  bool leg(std::string_view action, MotionKind kind, const Position& end);
   bool arc(const ir::NcWords& words, const Position& end);
   bool plainArc(const ir::NcWords& words, const PlaneAxes& plane, const Position& end) const;
 
+  // Of the block that runs, along the axis.
+  bool isIncremental(std::size_t axis) const {
+    return modes_[kDistance] != 0 || (block_.increments >> axis & 1) != 0;
+  }
   // End point of the axes in the block, in the work system; false where an axis is not known or the value
   // does not fit.
   bool target(const ir::NcWords& words, Position& end);
@@ -370,6 +388,7 @@ private:
   bool find(std::uint32_t number, Place& place) const;
   std::optional<double> readSystem(std::uint32_t number, const Place& place); // lengths in mm
   bool inInches(const Place& place) const; // the program reads and writes it in inches now
+  double unitOf(const Place& place) const; // mm that 1 is there
   bool findState(std::uint32_t number, Place& place) const;
   std::optional<double> readState(std::uint32_t number, const Place& place);
   bool writeState(std::uint32_t number, const Place& place, double value, bool preset);
@@ -378,7 +397,8 @@ private:
   bool store(std::uint32_t number, double value, bool preset);
   std::uint32_t windowBytes(const Place& place) const; // 0: the address lies outside
 
-  const stdlib::Control* control_; // a pointer: a machine can be assigned
+  const stdlib::Control* control_;      // a pointer: a machine can be assigned
+  const stdlib::TurningFacts* turning_; // of the control; nullptr: a mill
   Dialect dialect_;
   CodeTable table_;
   Trace* trace_ = nullptr;
@@ -423,6 +443,13 @@ private:
   double initialLevel_ = 0, cycleR_ = 0, cycleDepth_ = 0;
   bool hasR_ = false, hasDepth_ = false;
   double seconds_ = 0, timerBase_ = 0, hoursBase_ = 0;
+  // Of a lathe: the block with increments as words of their axes; ends and taper that the single cycle in
+  // force repeats; the return after a peck by axis, which the first of two blocks gives.
+  ir::NcWords turnedWords_;
+  Position cycleEnd_{};
+  double cycleTaper_ = 0;
+  std::uint32_t cycleAxes_ = 0;
+  std::array<std::optional<double>, 3> peckReturn_;
 
   CellLayout layout_;
   std::vector<double> cells_;
@@ -460,6 +487,7 @@ private:
     std::array<std::uint8_t, kSlots> before{}; // modes before the block
     std::uint32_t call = 0;                    // not 0: a call or a return is in the block
     bool endsRotation = false;
+    std::uint32_t increments = 0; // of a lathe: axes (bits by number) whose words are increments
   } block_;
 };
 

@@ -64,10 +64,10 @@ std::string Machine::lostText(std::uint32_t axes) const {
 
 bool Machine::target(const NcWords& w, Position& end) {
   end = work_;
-  const bool incremental = modes_[kDistance] != 0;
   const std::uint32_t unknown = uncertain_;
   for (std::size_t i = 0; i < kAxes; ++i) {
     if (!has(w, i)) continue;
+    const bool incremental = isIncremental(i);
     const char letter = kAxisLetters[i];
     if (incremental && (uncertain_ >> i & 1) != 0)
       return inconclusive("the position of this axis is not known" + lostText(1u << i), letter);
@@ -89,24 +89,27 @@ bool Machine::target(const NcWords& w, Position& end) {
 }
 
 bool Machine::move(const NcWords& w) {
-  const bool isArc = modes_[kMotion] >= kArcClockwise;
+  if (modes_[kMotion] >= kTurningCycle) return singleCycle(w);
+  const bool onArc = isArc(modes_[kMotion]);
   const bool centre = (w.present & ir::addressBits("IJKR")) != 0;
-  if ((w.present & kAxisBits) == 0 && !(isArc && centre)) return true;
+  if ((w.present & kAxisBits) == 0 && !(onArc && centre)) return true;
   moved_ = true;
   if (!motionKnown() || (modes_[kMotion] != kRapid && !feedKnown())) return false;
   const std::uint32_t unknown = uncertain_;
   Position end;
   if (!target(w, end)) return false;
   if (modes_[kMotion] != kRapid && !(feed_ > 0)) return raise(Alarm::NoFeed);
-  if (isArc) {
+  if (onArc) {
     const PlaneAxes& plane = kPlanes[modes_[kPlane]];
     if ((unknown & (1u << plane.first | 1u << plane.second)) != 0)
       return inconclusive("where the arc begins is not known", 'G');
     return arc(w, end);
   }
   if (trace_ != nullptr)
-    traceMove(modes_[kMotion] == kRapid ? "rapid" : "feed", knownOf(end, uncertain_),
-              modes_[kMotion] != kRapid);
+    traceMove(modes_[kMotion] == kRapid    ? "rapid"
+              : modes_[kMotion] == kThread ? "thread"
+                                           : "feed",
+              knownOf(end, uncertain_), modes_[kMotion] != kRapid);
   work_ = end;
   if (watcher_ != nullptr)
     tellMotion(modes_[kMotion] == kRapid ? MotionKind::Rapid : MotionKind::Feed, movedBy(w));
@@ -157,8 +160,8 @@ bool Machine::arc(const NcWords& w, const Position& end) {
     trace_->begin(modes_[kMotion] == kArcClockwise ? "arc-cw" : "arc-ccw").text(plane.name);
     trace_->position(knownOf(end, uncertain_), shown_);
     trace_->text("centre")
-        .word("", snap(work_[plane.first] + first))
-        .word("", snap(work_[plane.second] + second));
+        .word("", snap(work_[plane.first] + first) * (plane.first == 0 && countsDiameters() ? 2 : 1))
+        .word("", snap(work_[plane.second] + second) * (plane.second == 0 && countsDiameters() ? 2 : 1));
     trace_->word(modes_[kFeedMode] == 0 ? "F" : "FR", feed_).end();
   }
   const Position begin = work_;
@@ -178,6 +181,11 @@ bool Machine::oneShot(const NcWords& w) {
   case Function::ReferenceReturn: return reference(w, true);
   case Function::SecondReferenceReturn: return reference(w, false);
   case Function::Skip: return skipMove(w);
+  case Function::PeckAlongZ: return pecks(w, 2, 0);
+  case Function::PeckAlongX: return pecks(w, 0, 2);
+  case Function::ContourFinish:
+  case Function::ContourRough:
+  case Function::ThreadPasses: return refusedCycle(w);
   default: return inconclusive("what it does here is not known to Dotek", 'G');
   }
 }
@@ -186,7 +194,7 @@ bool Machine::oneShot(const NcWords& w) {
 bool Machine::machineMove(const NcWords& w) {
   if ((w.present & kAxisBits) == 0) return true;
   if (!motionKnown() || (modes_[kMotion] == kFeed && !feedKnown())) return false;
-  if (modes_[kDistance] != 0)
+  if (modes_[kDistance] != 0 || block_.increments != 0)
     return inconclusive("machine coordinates in incremental mode are not known", 'G');
   if (modes_[kMotion] > kFeed || modes_[kCanned] != 0)
     return inconclusive("machine coordinates go with rapid or feed", 'G');
@@ -232,10 +240,10 @@ bool Machine::reference(const NcWords& w, bool first) {
   const std::uint32_t unknown = uncertain_;
   for (std::size_t i = 0; i < kAxes; ++i) {
     // Whether the point on the path is turned is in no source.
-    if (has(w, i) && rotation_.turns(i) && !(modes_[kDistance] != 0 && w.of(kAxisLetters[i]) == 0))
+    if (has(w, i) && rotation_.turns(i) && !(isIncremental(i) && w.of(kAxisLetters[i]) == 0))
       return refuseTurned("a reference return by way of another point");
     // From an unknown place straight to the reference point: the path is not known either, its end is.
-    if (has(w, i) && (unknown >> i & 1) != 0 && modes_[kDistance] != 0 && w.of(kAxisLetters[i]) == 0)
+    if (has(w, i) && (unknown >> i & 1) != 0 && isIncremental(i) && w.of(kAxisLetters[i]) == 0)
       uncertain_ &= ~(1u << i);
   }
   if (!target(w, via)) return false;
@@ -245,7 +253,7 @@ bool Machine::reference(const NcWords& w, bool first) {
     std::uint32_t lost = lost_;
     for (std::size_t i = 0; i < kAxes; ++i) {
       if (!has(w, i)) continue;
-      if (modes_[kDistance] != 0) {
+      if (isIncremental(i)) {
         to[i] = snap(at_[i] + lengthOf(w, kAxisLetters[i]));
       } else {
         to[i] = snap(via[i] + offset_[i] + (i == 2 ? toolLength_ : 0));
@@ -267,7 +275,8 @@ bool Machine::reference(const NcWords& w, bool first) {
     for (std::size_t i = 0; i < kAxes; ++i)
       if (has(w, i)) axes += kAxisLetters[i];
     trace_->begin(first ? "reference" : "second-reference").text(axes).text("via");
-    const std::uint32_t named = modes_[kDistance] != 0 ? 0 : axisNumbers(w.present & kAxisBits);
+    const std::uint32_t named =
+        modes_[kDistance] != 0 ? 0 : axisNumbers(w.present & kAxisBits) & ~block_.increments;
     trace_->position(knownOf(via, unknown & ~named), shown_).end();
   }
   if (watcher_ == nullptr || !running()) return true;

@@ -50,6 +50,7 @@ double Machine::lengthOf(const NcWords& w, char letter) const {
     out = value / increments;
   }
   if (bare || w.mostPlaces > static_cast<std::uint32_t>(places)) out = rounded(out, places);
+  if (letter == 'X' && countsDiameters()) out /= 2;
   return inch ? snap(out * kInch) : out;
 }
 
@@ -73,9 +74,15 @@ bool Machine::settings(const NcWords& w) {
   if (w.has('T')) {
     const std::optional<std::uint32_t> tool = whole(w, 'T');
     if (!tool) return inconclusive("it is no tool number", 'T');
-    toolNumber_ = *tool;
-    if (trace_ != nullptr) trace_->begin("tool").text(std::to_string(toolNumber_)).end();
+    if (turning_ != nullptr) {
+      if (!takesTool(*tool)) return false;
+    } else {
+      toolNumber_ = *tool;
+      if (trace_ != nullptr) trace_->begin("tool").text(std::to_string(toolNumber_)).end();
+    }
   }
+  if (trace_ != nullptr && modes_[kSurface] != block_.before[kSurface])
+    trace_->begin("surface-speed").text(modes_[kSurface] != 0 ? "on" : "off").end();
   if (trace_ != nullptr && modes_[kComp] != block_.before[kComp]) {
     static constexpr std::string_view kNames[] = {"off", "left", "right"};
     trace_->begin("comp").text(kNames[modes_[kComp]]);
@@ -127,7 +134,7 @@ bool Machine::miscellaneous(const NcWords& w) {
     shownSpindle_ = spindle_;
     shownSpeed_ = speed_;
     static constexpr std::string_view kNames[] = {"off", "cw", "ccw"};
-    trace_->begin("spindle").text(kNames[spindle_]).word("S", speed_).end();
+    trace_->begin("spindle").text(kNames[spindle_]).word(modes_[kSurface] != 0 ? "V" : "S", speed_).end();
   }
   return true;
 }
@@ -253,6 +260,11 @@ bool Machine::dwell(const NcWords& w) {
 
 // G10 L2, L20: work offsets; L1, L10 to L13: tool offsets. Others are not known.
 bool Machine::dataInput(const NcWords& w) {
+  if (turning_ != nullptr && (!w.has('L') || (w.present & ir::addressBits("UVWH")) != 0))
+    return inconclusive(
+        "what it changes of the offsets of turning tools is not followed; G10 L2 is, with axes by "
+        "their own letters",
+        'G');
   if (!w.has('L') || !w.has('P')) return inconclusive("G10 is known with L and P", w.has('L') ? 'L' : 'G');
   const std::optional<std::uint32_t> kind = whole(w, 'L'), number = whole(w, 'P');
   const bool add = modes_[kDistance] != 0;
@@ -320,7 +332,8 @@ bool Machine::setRadius(std::uint32_t tool, bool wear, double value, bool add) {
 
 bool Machine::localShift(const NcWords& w) {
   if (rotation_.on()) return refuseTurned("a local system");
-  if (modes_[kDistance] != 0) return inconclusive("a local system in incremental mode is not known", 'G');
+  if (modes_[kDistance] != 0 || block_.increments != 0)
+    return inconclusive("a local system in incremental mode is not known", 'G');
   for (std::size_t i = 0; i < kAxes; ++i)
     if (has(w, i)) local_[i] = lengthOf(w, kAxisLetters[i]);
   updateOffsets();
@@ -341,6 +354,9 @@ bool Machine::setPosition(const NcWords& w) {
     if (trace_ != nullptr) trace_->begin("spindle-limit").word("S", w.of('S')).end();
     return true;
   }
+  if (block_.increments != 0)
+    return inconclusive(
+        "a shift of the coordinates by increments; write the coordinates that the place shall have", 'G');
   if (rotation_.on()) return refuseTurned("G92");
   const Position& system = systemOffset();
   for (std::size_t i = 0; i < kAxes; ++i) {

@@ -69,6 +69,11 @@ std::vector<double> Machine::snapshot() const {
                          toolLength_, static_cast<double>(toolNumber_), static_cast<double>(probe_),
                          static_cast<double>(uncertain_), rotation_.degrees(), initialLevel_, cycleR_,
                          cycleDepth_, seconds_, static_cast<double>(lastSkip_)});
+  if (turning_ == nullptr) return out;
+  add(cycleEnd_);
+  out.insert(out.end(), {cycleTaper_, static_cast<double>(cycleAxes_)});
+  for (const std::optional<double>& one : peckReturn_)
+    out.push_back(one.value_or(-1));
   return out;
 }
 

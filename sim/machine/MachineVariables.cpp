@@ -16,10 +16,16 @@ bool Machine::find(std::uint32_t number, Place& place) const {
   using Kind = Place::Kind;
   const stdlib::SystemVariables& v = control_->variables;
   const auto n = static_cast<long>(number);
+  const auto numbered = [&](std::size_t at) -> std::optional<std::size_t> {
+    if (turning_ == nullptr) return at;
+    if (at >= turning_->axes.size()) return std::nullopt;
+    return std::string_view(kAxisLetters).find(turning_->axes[at]);
+  };
   const auto axisOf = [&](std::optional<int> first, Kind kind) {
     if (!first || n < *first || n >= *first + static_cast<long>(kAxes)) return false;
-    place = {kind, 0, static_cast<std::size_t>(n - *first)};
-    return true;
+    const auto axis = numbered(static_cast<std::size_t>(n - *first));
+    if (axis) place = {kind, 0, *axis};
+    return axis.has_value();
   };
   // Offsets are in steps of systems and of axes, the smaller one within the larger.
   const auto offset = [&](std::optional<int> first, int step, int count, Kind kind) {
@@ -31,8 +37,9 @@ bool Machine::find(std::uint32_t number, Place& place) const {
     if (axisStep == 0 || rest < 0 || rest % axisStep != 0) return false;
     const long axis = rest / axisStep;
     if (system >= count || axis >= static_cast<long>(kAxes)) return false;
-    place = {kind, static_cast<std::size_t>(system), static_cast<std::size_t>(axis)};
-    return true;
+    const auto own = numbered(static_cast<std::size_t>(axis));
+    if (own) place = {kind, static_cast<std::size_t>(system), *own};
+    return own.has_value();
   };
   const auto tool = [&](std::optional<int> first, Kind kind) {
     if (!first || n < *first || n > *first + v.toolCount) return false;
@@ -83,7 +90,7 @@ std::optional<double> Machine::read(std::uint32_t number) {
   Place place;
   if (number >= 1000 && find(number, place)) {
     const std::optional<double> value = readSystem(number, place);
-    return value && !isNull(*value) && inInches(place) ? *value / kInch : value;
+    return value && !isNull(*value) ? *value / unitOf(place) : value;
   }
   if (number < 1000 || number == UINT32_MAX) {
     raise(Alarm::NoSuchVariable);
@@ -148,6 +155,15 @@ bool Machine::inInches(const Place& place) const {
   case Kind::None: break;
   }
   return false;
+}
+
+double Machine::unitOf(const Place& place) const {
+  using Kind = Place::Kind;
+  const bool ofX = place.axis == 0 && countsDiameters() &&
+                   (place.kind == Kind::BlockEnd || place.kind == Kind::MachinePosition ||
+                    place.kind == Kind::Now || place.kind == Kind::Skip || place.kind == Kind::External ||
+                    place.kind == Kind::System || place.kind == Kind::Extended);
+  return (inInches(place) ? kInch : 1.0) / (ofX ? 2 : 1);
 }
 
 std::optional<double> Machine::readSystem(std::uint32_t number, const Place& place) {
@@ -293,7 +309,7 @@ bool Machine::store(std::uint32_t number, double value, bool preset) {
   }
   // A system variable holds numbers: null counts as 0 there.
   const double given = isNull(value) ? 0 : value;
-  const double length = snap(inInches(place) ? given * kInch : given);
+  const double length = snap(given * unitOf(place));
   const auto set = [&](double& offset, const auto& name) {
     const bool ofTool = place.kind == Kind::Wear || place.kind == Kind::Geometry;
     if (watcher_ != nullptr && !preset)

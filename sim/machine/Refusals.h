@@ -37,7 +37,8 @@ inline std::string latheText(std::uint64_t line, std::string_view what) {
 }
 // A block of one. `why`: latheText(); `meaning`: what it does there.
 inline std::string onLatheText(std::string_view why, std::string_view meaning) {
-  return fmt::format("{}; there this {}, and Dotek has no profile of such a control", why, meaning);
+  return fmt::format("{}; there this {}; `--control fanuc-0i-tf`, or a file that extends it, reads it so",
+                     why, meaning);
 }
 
 } // namespace dotek::sim

@@ -174,6 +174,9 @@ private:
   bool callByCode(const BlockSlots& slots, std::uint32_t at, const stdlib::CallCode& code);
   bool callOnBlock(const BlockSlots& slots, const ModalCall& modal);
   bool executeWords(const BlockSlots& slots);
+  // G70: the blocks of P to Q of the same program, then rapid to where it began.
+  bool beginContour(const BlockSlots& slots);
+  bool endContour();
   bool toIncrement(char letter, double& value);
 
   // ---- RunCall.cpp
@@ -206,6 +209,12 @@ private:
   void noteWrite(std::uint32_t number);
   bool refuse(std::string why) { return machine_.inconclusive(std::move(why)); }
   double cell(std::uint32_t at) const { return cells_[at]; }
+
+  struct Contour {
+    std::uint32_t end = 0, back = 0; // places: after its last block, and after the cycle
+    Position start{};
+  };
+  std::optional<Contour> contour_; // that runs
 
   Machine& machine_;
   const Bytecode& code_;

@@ -1,4 +1,5 @@
 // Blocks of words: what is handed to the machine, and codes that call programs.
+#include "sim/machine/Axes.h"
 #include "sim/machine/Run.h"
 #include "sim/machine/Value.h"
 #include "stdlib/ReadAhead.h"
@@ -111,10 +112,12 @@ bool Run::block(const BlockSlots& slots) {
   }
   if (level.modalCalls > 0 && modal_[level.modalCalls - 1].eachBlock)
     return callOnBlock(slots, modal_[level.modalCalls - 1]);
-  if (!fill(slots, slots.words) || !executeWords(slots)) return false;
+  if (!fill(slots, slots.words)) return false;
+  if (machine_.isLathe() && machine_.finishesContour(words_)) return beginContour(slots);
+  if (!executeWords(slots)) return false;
   if (words_.present == 0 || !machine_.moved() || level.modalCalls == 0) {
     ++place_;
-    return true;
+    return !contour_ || place_ != contour_->end || endContour();
   }
   const ModalCall& modal = modal_[level.modalCalls - 1];
   locals_ = modal.arguments;
@@ -124,6 +127,80 @@ bool Run::block(const BlockSlots& slots) {
   request.byCode = level.byCode;
   request.modalCalls = level.modalCalls - 1;
   return begin(request);
+}
+
+bool Run::beginContour(const BlockSlots& slots) {
+  const auto whole = [&](char letter) {
+    const double value = words_.of(letter);
+    return words_.has(letter) && value >= 1 && value < 1e8 && value == std::floor(value)
+               ? static_cast<std::uint64_t>(value)
+               : 0;
+  };
+  // The block of that number, if there is one alone; kNoCell else.
+  const auto placeOf = [&](std::uint64_t number) {
+    std::uint32_t place = kNoCell, found = 0;
+    for (const NumberedPlace& label : levels_.back().routine->labels)
+      if (label.number == number && ++found != 0) place = label.place;
+    return found == 1 ? place : kNoCell;
+  };
+  const std::uint64_t first = whole('P'), last = whole('Q');
+  if (first == 0 || last == 0 || contour_)
+    return refuse(
+        "`G70` takes P and Q, the N numbers of the first and the last block of a contour, and stands "
+        "outside of it");
+  const std::uint32_t begin = placeOf(first);
+  std::uint32_t end = placeOf(last);
+  for (const auto& [place, number] : {std::pair(begin, first), std::pair(end, last)})
+    if (place == kNoCell) return refuse(fmt::format("the program has no block N{}, or several", number));
+  const auto isPlain = [&](std::uint32_t at) {
+    const Instruction& instruction = code_.instructions[at];
+    if (instruction.op == Op::Block && code_.blocks[instruction.a].mayCall) return false;
+    const auto& node = code_.statementOf(at).node;
+    return std::holds_alternative<ir::NcBlock>(node) || std::holds_alternative<ir::Label>(node) ||
+           std::holds_alternative<ir::Comment>(node);
+  };
+  const std::uint32_t text = levels_.back().routine->end;
+  bool plain = begin <= end;
+  for (std::uint32_t at = begin; plain && at < end; ++at)
+    plain = isPlain(at);
+  // What computes its words is before the block.
+  while (plain && end < text && code_.instructions[end].op != Op::Block)
+    plain = isPlain(end++);
+  plain = plain && end < text && isPlain(end) && levels_.back().modalCalls == 0;
+  if (!plain) return refuse("a contour of `G70` is blocks alone, from its first to its last");
+  if (machine_.uncertain() != 0) return refuse("where the cycle begins is not known");
+  // What else the block says comes first.
+  words_.present &= ~ir::addressBits("PQ");
+  const auto other =
+      std::remove_if(words_.g.begin(), words_.g.begin() + words_.gCount, [&](std::uint32_t code) {
+        NcWords one;
+        one.addG(code);
+        return machine_.finishesContour(one);
+      });
+  words_.gCount = static_cast<std::uint32_t>(other - words_.g.begin());
+  if (words_.gCount == 0) words_.present &= ~ir::addressBit('G');
+  if (!executeWords(slots)) return false;
+  contour_ = Contour{end + 1, place_ + 1, machine_.position()};
+  place_ = begin;
+  return true;
+}
+
+// Which code of group 1 is in force then is in no source.
+bool Run::endContour() {
+  const Position start = contour_->start;
+  place_ = contour_->back;
+  contour_.reset();
+  if (!machine_.rapidTo(start)) return false;
+  machine_.forgetMotion(machine_.feed());
+  if (listener_ == nullptr) return true;
+  // Who writes the blocks down has none for this move.
+  const double unit = machine_.mode(kUnits) != 0 ? kInch : 1;
+  NcWords back;
+  back.addG(0);
+  back.set('X', start[0] * (machine_.countsDiameters() ? 2 : 1) / unit);
+  back.set('Z', start[2] / unit);
+  listener_->blockDone(back, ir::addressBits("XZ"));
+  return true;
 }
 
 bool Run::executeWords(const BlockSlots& slots) {

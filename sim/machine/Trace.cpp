@@ -74,10 +74,10 @@ Trace& Trace::text(std::string_view text) {
 
 Trace& Trace::position(const Position& position, std::uint32_t shown) {
   for (std::size_t i = 0; i < kAxes; ++i) {
-    if (i >= 3 && (shown >> i & 1) == 0) continue;
+    if ((i >= 3 || (lathe_ && i == 1)) && (shown >> i & 1) == 0) continue;
     text_ += ' ';
     text_ += kAxisLetters[i];
-    appendFixed6(text_, position[i]);
+    appendFixed6(text_, i == 0 && diameters_ ? 2 * position[i] : position[i]);
   }
   return *this;
 }

@@ -26,6 +26,11 @@ public:
   Trace& operator=(const Trace&) = delete;
 
   void at(std::uint64_t line) { line_ = line; }
+  // Positions as a lathe shows them: no Y that has not moved, and X twice where `diameters`.
+  void showLathe(bool diameters) {
+    lathe_ = true;
+    diameters_ = diameters;
+  }
   // Begins a line with its action, adds to it, ends it.
   Trace& begin(std::string_view action);
   Trace& word(std::string_view name, double value); // " X1.500000"
@@ -38,6 +43,7 @@ public:
 private:
   std::function<void(std::string_view)> sink_;
   bool lines_;
+  bool lathe_ = false, diameters_ = false;
   std::uint64_t line_ = 0;
   std::string text_;
 };
