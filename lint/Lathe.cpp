@@ -37,8 +37,9 @@ std::optional<LatheMark> latheMark(const macrob::File& file) {
 
 Lathes findLathes(const Project& project) {
   Lathes out;
+  const bool all = project.control != nullptr && project.control->turning;
   for (const NcFile& nc : project.programs)
-    if (const auto mark = latheMark(*nc.file)) out.emplace(nc.file, *mark);
+    if (const auto mark = latheMark(*nc.file); mark || all) out.emplace(nc.file, mark.value_or(LatheMark()));
   return out;
 }
 

@@ -1,4 +1,4 @@
-// Programs of lathes, which the profiles do not describe: the same codes mean something else there.
+// Programs of lathes: the same codes mean something else there than on a mill, whose rules are silent then.
 #pragma once
 
 #include "lint/Project.h"
@@ -12,8 +12,8 @@ struct LatheMark {
   SourceRange range;
   std::string_view what; // that the block does, to follow "this block"
 };
-// The files of NC programs of which something shows that they are a lathe's. Others are a mill's, or nothing
-// shows.
+// The files of NC programs of which something shows that they are a lathe's, or all where the control that is
+// named is one (with a mark that may be blank). Others are a mill's, or nothing shows.
 using Lathes = std::map<const macrob::File*, LatheMark>;
 Lathes findLathes(const Project& project);
 // Computed once a project.

@@ -133,7 +133,13 @@ Project& Projects::begin(const Settings& settings) {
   project.analyses->wholeFolder =
       std::any_of(options_.paths.begin(), options_.paths.end(),
                   [&](const std::string& path) { return std::filesystem::is_directory(path, error); });
-  if (control == nullptr && blocks) project.controls = compilation_.controls(settings.probe);
+  if (control == nullptr && blocks) {
+    // A text that names no control is a mill's: the codes of a lathe mean something else.
+    const std::vector<stdlib::Control>& all = compilation_.controls(settings.probe);
+    const auto lathes = std::find_if(all.begin(), all.end(),
+                                     [](const stdlib::Control& one) { return one.turning.has_value(); });
+    project.controls = {all.begin(), lathes};
+  }
   return project;
 }
 

@@ -40,6 +40,8 @@ const std::vector<stdlib::Control>& Compilation::controls(const stdlib::ProbeCod
   at->second.clear(); // a dotek.toml has named a file since
   for (const stdlib::DataFile* file : files)
     if (const stdlib::Control* control = session_.control(file->name, probe)) at->second.push_back(*control);
+  std::stable_partition(at->second.begin(), at->second.end(),
+                        [](const stdlib::Control& one) { return !one.turning; });
   return at->second;
 }
 

@@ -12,6 +12,7 @@
 #include "ir/Positions.h"
 #include "ir/ShareVariables.h"
 #include "ir/Walk.h"
+#include "project/MillControl.h"
 #include "stdlib/SearchTravel.h"
 #include "support/NearestName.h"
 #include "support/messages/Commands.h"
@@ -46,6 +47,7 @@ public:
     if (!source) return false;
     LoweredCycle& lowered = source->lowered;
     const LoweringInputs& inputs = *context_.inputs;
+    if (project::refuseLathe(*inputs.control, session_)) return true;
     const stdlib::MacroSet* macros = macrosOf(lowered);
     if (macros == nullptr || session_.diagnostics().hasErrors()) return true;
     for (const auto& [id, value] : lowered.fixed) {

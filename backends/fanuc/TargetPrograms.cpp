@@ -5,6 +5,7 @@
 #include "backends/fanuc/TargetEarly.h"
 #include "backends/fanuc/TranslateCall.h"
 #include "project/Lowering.h"
+#include "project/MillControl.h"
 #include "project/Programs.h"
 #include "support/messages/Commands.h"
 
@@ -39,6 +40,7 @@ bool ProgramConversion::load() {
   if (control_) checkProbeCodes(*control_, session_);
   source_ = options_.fromControl.empty() ? control_ : loadControl(options_.fromControl, session_);
   if (!control_ || !source_) return false;
+  if (project::refuseLathe(*control_, session_) || project::refuseLathe(*source_, session_)) return false;
   if (!options_.probeMacros) return true;
   wanted_ = session_.macroSet(*options_.probeMacros, &*control_);
   if (wanted_ == nullptr) reportUnknownMacroSet(*options_.probeMacros, session_);

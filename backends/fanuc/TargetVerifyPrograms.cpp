@@ -3,6 +3,7 @@
 #include "backends/fanuc/ProgramCalls.h"
 #include "project/Hosts.h"
 #include "project/Lowering.h"
+#include "project/MillControl.h"
 #include "project/Programs.h"
 #include "project/VariableFlags.h"
 #include "sim/machine/Compile.h"
@@ -48,6 +49,8 @@ bool ProgramRunner::load() {
       options_.fromControl.empty() ? targetControl_ : loadControl(options_.fromControl, session_);
   hosts_ = parseHosts(options_.common.host, session_.diagnostics());
   if (!targetControl_ || !sourceControl_ || session_.diagnostics().hasErrors()) return false;
+  if (project::refuseLathe(*targetControl_, session_) || project::refuseLathe(*sourceControl_, session_))
+    return false;
   const std::optional<FileId> id = session_.read(options_.inputs.front(), Encoding::Cp1250);
   if (!id) return false;
   file_ = *id;

@@ -1,5 +1,6 @@
 #include "frontend/macrob/Outline.h"
 
+#include "frontend/macrob/BlockWords.h"
 #include "frontend/macrob/Calls.h"
 #include "frontend/macrob/Constant.h"
 #include "frontend/macrob/Walk.h"
@@ -19,7 +20,10 @@ public:
       out_.numbers.emplace_back(block.sequenceNumber->digits, block.sequenceNumber->range);
     if (const Goto* jump = gotoOf(block))
       out_.jumps.emplace_back(sources_.textUtf8(jump->target->range), jump->target->range);
-    if (const auto* words = std::get_if<Words>(&block.body)) call(*words);
+    if (const auto* words = std::get_if<Words>(&block.body)) {
+      call(*words);
+      contour(*words);
+    }
     if (const nc::Assignment* set = assignmentOf(block)) use(*set->variable, set->range, true);
     if (const auto* print = printOf(block))
       for (const auto& piece : print->pieces)
@@ -71,6 +75,18 @@ private:
                                                        : "";
     }
     out_.calls.push_back(std::move(one));
+  }
+
+  // Of G70 to G73 of a lathe; G73 with a level R drills.
+  void contour(const Words& words) {
+    const nc::Word *const first = findWord(words, 'P'), *const last = findWord(words, 'Q');
+    const bool drills = findWord(words, 'R') != nullptr && findWord(words, 'Z') != nullptr;
+    for (const double code : {70, 71, 72, 73})
+      if (findCode(words, 'G', code) != nullptr && first != nullptr && last != nullptr && !drills)
+        out_.jumps.emplace_back(fmt::format("contour of G{}, {} to {}", code,
+                                            sources_.textUtf8(first->range).substr(1),
+                                            sources_.textUtf8(last->range).substr(1)),
+                                first->range);
   }
 
   OutlineProgram& out_;

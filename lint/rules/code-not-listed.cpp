@@ -42,7 +42,8 @@ std::optional<Code> listedSwapped(const Code& code, const Project& project) {
 
 // Of one file: what another one has, or suppresses, changes nothing.
 void checkFile(const macrob::File& file, const Project& project, Report& report) {
-  if (lathesOf(project).contains(&file)) return;
+  const bool named = project.control != nullptr && project.control->turning;
+  if (!named && lathesOf(project).contains(&file)) return;
   std::vector<std::pair<Code, SourceRange>> unlisted; // in the order of the text, each code once
   for (const macrob::Program& program : file.programs)
     for (const macrob::Block& block : program.blocks) {

@@ -1,7 +1,6 @@
 // Blocks of a lathe in G code system A: increments by letters of their own, single cycles, pecks.
 #include "sim/machine/Axes.h"
 #include "sim/machine/Machine.h"
-#include "sim/machine/Refusals.h"
 
 #include <algorithm>
 #include <cmath>
@@ -152,15 +151,9 @@ bool Machine::singleCycle(const NcWords& w) {
 
 namespace {
 
-std::string placed(const std::string& code, std::uint64_t line) {
-  return line == 0 ? fmt::format("`{}`", code) : fmt::format("`{}` in line {}", code, line);
-}
-
-// Of the block, with this meaning.
-std::uint32_t codeOf(const NcWords& w, const CodeTable& table, Function function) {
-  const auto own = std::find_if(w.g.begin(), w.g.begin() + w.gCount,
-                                [&](std::uint32_t code) { return table.g(code).function == function; });
-  return own == w.g.begin() + w.gCount ? 0 : *own;
+// The code stands before it.
+std::string placed(std::uint64_t line) {
+  return line == 0 ? "the cycle" : fmt::format("the cycle of line {}", line);
 }
 
 } // namespace
@@ -178,7 +171,7 @@ std::optional<double> Machine::pecked(const NcWords& w, char letter) {
 
 // G74, G75: feed by a peck, back by the return, and so on to the depth; rapid out; and again a step further.
 bool Machine::pecks(const NcWords& w, std::size_t along, std::size_t across) {
-  const std::string name = placed(codeName('G', codeOf(w, table_, block_.oneShot)), w.line);
+  const std::string name = placed(w.line);
   if ((w.present & ir::addressBits("ADIK")) != 0)
     return inconclusive(
         name + " in the form with one block, with I, K or D: this control takes the one with two, "
@@ -251,8 +244,7 @@ bool Machine::pecks(const NcWords& w, std::size_t along, std::size_t across) {
 
 // G70 outside of a program, G71 to G73, G76: no source that the data rest on states their path.
 bool Machine::refusedCycle(const NcWords& w) {
-  const std::uint32_t code = codeOf(w, table_, block_.oneShot);
-  const std::string name = placed(codeName('G', code), w.line);
+  const std::string name = placed(w.line);
   const bool thread = block_.oneShot == Function::ThreadPasses;
   const bool second = thread ? (w.present & (kAxisBits)) != 0 : (w.present & ir::addressBits("PQ")) != 0;
   if (block_.oneShot != Function::ContourFinish && !second) {

@@ -188,11 +188,15 @@ bool Run::beginContour(const BlockSlots& slots) {
 // Which code of group 1 is in force then is in no source.
 bool Run::endContour() {
   const Position start = contour_->start;
-  place_ = contour_->back;
+  const std::uint32_t next = contour_->back;
   contour_.reset();
+  place_ = next - 1;
   if (!machine_.rapidTo(start)) return false;
   machine_.forgetMotion(machine_.feed());
-  if (listener_ == nullptr) return true;
+  if (listener_ == nullptr) {
+    place_ = next;
+    return true;
+  }
   // Who writes the blocks down has none for this move.
   const double unit = machine_.mode(kUnits) != 0 ? kInch : 1;
   NcWords back;
@@ -200,6 +204,7 @@ bool Run::endContour() {
   back.set('X', start[0] * (machine_.countsDiameters() ? 2 : 1) / unit);
   back.set('Z', start[2] / unit);
   listener_->blockDone(back, ir::addressBits("XZ"));
+  place_ = next;
   return true;
 }
 

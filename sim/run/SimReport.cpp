@@ -69,13 +69,11 @@ std::string toUtf8Text(const std::string& bytes) {
   return toUtf8(bytes, isUtf8(bytes) ? Encoding::Utf8 : Encoding::Cp1250);
 }
 
-// As the control shows it.
-std::string positionText(const Position& position, const Machine& machine) {
+std::string positionText(const Position& position, std::uint32_t shown) {
   std::string out;
   for (std::size_t i = 0; i < kAxes; ++i) {
-    if ((i >= 3 || (machine.isLathe() && i == 1)) && (machine.movedAxes() >> i & 1) == 0) continue;
-    const double value = i == 0 && machine.countsDiameters() ? 2 * position[i] : position[i];
-    out += fmt::format("{}\"{}\": {}", out.empty() ? "" : ", ", kAxisLetters[i], jsonNumber(value, 6));
+    if (i >= 3 && (shown >> i & 1) == 0) continue;
+    out += fmt::format("{}\"{}\": {}", out.empty() ? "" : ", ", kAxisLetters[i], jsonNumber(position[i], 6));
   }
   return "{" + out + "}";
 }
@@ -280,6 +278,16 @@ void traceVariables(const Machine& machine, Trace& trace) {
   }
 }
 
+namespace {
+
+// As the control shows it.
+std::string shownText(Position position, const Machine& machine) {
+  if (machine.countsDiameters()) position[0] *= 2;
+  return positionText(position, machine.movedAxes());
+}
+
+} // namespace
+
 std::string summary(Machine& machine, const Run* run, const SimWorld& world, Session& session) {
   const RunEnd& end = machine.end();
   const bool notRead = end.ending == Ending::Running && session.diagnostics().hasErrors();
@@ -287,8 +295,8 @@ std::string summary(Machine& machine, const Run* run, const SimWorld& world, Ses
   out += fmt::format("  \"ending\": \"{}\",\n", endingName(machine, notRead));
   out += fmt::format("  \"control\": {},\n", jsonString(machine.control().name));
   out += fmt::format("  \"blocks\": {},\n", machine.blocks());
-  out += fmt::format("  \"position\": {},\n", positionText(machine.knownPosition(), machine));
-  out += fmt::format("  \"machine\": {},\n", positionText(machine.knownMachinePosition(), machine));
+  out += fmt::format("  \"position\": {},\n", shownText(machine.knownPosition(), machine));
+  out += fmt::format("  \"machine\": {},\n", shownText(machine.knownMachinePosition(), machine));
   std::string unknown;
   for (std::size_t i = 0; i < kAxes; ++i)
     if ((machine.uncertain() >> i & 1) != 0)

@@ -237,18 +237,18 @@ TEST_CASE("turning: a cycle whose path no source states ends the run at its line
   for (const std::string code : {"G71", "G72", "G73"}) {
     const std::string first = code == "G72" ? " W1.5 R.5\n" : " U1.5 R.5\n";
     CHECK(holds(endOf("O1\nG0 X50. Z2.\n" + code + first + code + " P10 Q20 U.4 W.1 F.25\n" + contour),
-                "`" + code + "` in line 5 (the second of two blocks) moves along a path that no source"));
+                "the cycle of line 5 (the second of two blocks) moves along a path that no source"));
     CHECK(holds(endOf("O1\nG0 X50. Z2.\n" + code + " P10 Q20 U.4 W.1 D1500 F.25\n" + contour),
-                "`" + code + "` in line 4 (the form with one block)"));
+                "the cycle of line 4 (the form with one block)"));
     CHECK(endOf("O1\n" + code + first + contour) == "end");
     CHECK(holds(endOf("O1\n" + code + " P10 U.4\n" + contour), "with one of P and Q"));
     CHECK(
         holds(endOf("O1\n" + code + " X5.\n" + contour), "is the first of two blocks, and takes U, W and R"));
   }
   CHECK(holds(endOf("O1\nG76 P020060 Q100 R.05\nG76 X17.4 Z-20. P1300 Q400 F2.\nM30\n"),
-              "`G76` in line 4 (the second of two blocks)"));
+              "the cycle of line 4 (the second of two blocks)"));
   CHECK(holds(endOf("O1\nG76 X17.4 Z-20. K1.3 D400 F2. A60\nM30\n"),
-              "`G76` in line 3 (the form with one block)"));
+              "the cycle of line 3 (the form with one block)"));
   CHECK(holds(endOf("O1\nG76 R.05 K2.\nM30\n"), "is the first of two blocks, and takes P, Q and R"));
   CHECK(holds(endOf("G83 Z-20. Q5000 F.1\n"), "what it does here is not known"));
 }
