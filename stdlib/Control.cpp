@@ -255,7 +255,7 @@ void ControlReader::turning() {
     else
       document_.fail(
           item.range(),
-          fmt::format("`{}` is no axis with the address of its increments, `XU` is one; each stands once",
+          fmt::format("`{}` is no axis with the address of its increments, `XU` is one; each is listed once",
                       pair));
   }
   out.axes = table.require("axes", "the axes in the order of their variables, as XZ").text();

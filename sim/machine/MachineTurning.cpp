@@ -151,7 +151,7 @@ bool Machine::singleCycle(const NcWords& w) {
 
 namespace {
 
-// The code stands before it.
+// Of a message that begins with the code.
 std::string placed(std::uint64_t line) {
   return line == 0 ? "the cycle" : fmt::format("the cycle of line {}", line);
 }

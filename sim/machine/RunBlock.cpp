@@ -145,9 +145,8 @@ bool Run::beginContour(const BlockSlots& slots) {
   };
   const std::uint64_t first = whole('P'), last = whole('Q');
   if (first == 0 || last == 0 || contour_)
-    return refuse(
-        "`G70` takes P and Q, the N numbers of the first and the last block of a contour, and stands "
-        "outside of it");
+    return refuse("`G70` takes P and Q, the N numbers of the first and the last block of a contour, and is "
+                  "outside of it");
   const std::uint32_t begin = placeOf(first);
   std::uint32_t end = placeOf(last);
   for (const auto& [place, number] : {std::pair(begin, first), std::pair(end, last)})

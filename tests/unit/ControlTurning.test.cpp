@@ -1,5 +1,7 @@
 // The facts of a lathe: [turning], and the profile that has them.
 #include "stdlib/ControlFacts.h"
+#include "tests/GoldenRunner.h"
+#include "tests/TestFolder.h"
 #include "tests/unit/ControlText.h"
 
 #include <doctest/doctest.h>
@@ -72,4 +74,23 @@ TEST_CASE("[turning] says what is wrong with it") {
   CHECK(with("'G54'", "'M3'").find("`M3` is no G code") != std::string::npos);
   CHECK(with("offset_digits=2", "offset_digits=5") != "");
   CHECK(with("x='diameter',", "") != "");
+}
+
+TEST_CASE("nothing is converted from the programs of a lathe, or into them") {
+  const TestFolder folder("dotek-control-of-lathe");
+  folder.write("o.nc", "O0081\nG0 X40. Z2.\nM30\n");
+  const std::string surface = (root() / "examples/surface-x").string(),
+                    post = (root() / "examples/post.txt").string();
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"convert", "o.nc", "--to", "fanuc", "--control", "fanuc-0i-tf",
+                                 "--from-control", "fanuc-0i-md"},
+        {"convert", "o.nc", "--to", "fanuc", "--control", "fanuc-31i-b", "--from-control", "fanuc-0i-tf"},
+        {"verify", "o.nc", "--to", "fanuc", "--control", "fanuc-0i-tf", "--from-control", "fanuc-0i-md"},
+        {"convert", surface, "--prog", post, "--to", "fanuc", "--control", "fanuc-0i-tf"}}) {
+    const CommandResult out = runDotek(arguments, folder.path());
+    CAPTURE(out.err);
+    CHECK(out.status != 0);
+    CHECK(out.out.empty());
+    CHECK(out.err.find("[control-of-lathe]") != std::string::npos);
+  }
 }
