@@ -73,6 +73,7 @@ printf '%%\nO1000\nG90 G21 G53 G0 Z0\nG53 X-10. Y-10.\nG91 G31 Z-5. F500.\nM30\n
 mkdir macros; printf '%%\nO9000\n#501=#500*2\nM99\n%%\n' >macros/O9000.nc
 printf '%%\nO1\nG65 P9000\nM30\n%%\n' >main.nc
 printf 'N10 G90\nN20 G0 X10 Y10\nN30 M30\n' >PART.SUF
+printf '%%\nO1001\nT0101\nG0 X40. Z2.\nG90 X30. Z-20. F.2\nG0 X100. Z50.\nM30\n%%\n' >shaft.nc
 )";
   static const std::map<std::string, std::string, std::less<>> all = {
       {"ci.md", std::string(kRepository) +
