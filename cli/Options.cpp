@@ -5,6 +5,7 @@
 #include "stdlib/ControlFiles.h"
 #include "support/Decimal.h"
 #include "support/Worker.h"
+#include "targets/Target.h"
 
 #include <algorithm>
 #include <charconv>
@@ -234,6 +235,10 @@ void addTranslation(CLI::App& app, Raw& raw, const std::string& to) {
   addSeveral(app, "--result", raw.results,
              "of a file of the cycle language: common variable that gets a result of the cycle",
              "NAME=#NUMBER");
+  app.add_option("--calls", raw.calls,
+                 "of a file of the cycle language: a cycle that it calls is in the place of the call, or a "
+                 "program of the same file")
+      ->check(CLI::IsMember({"inline", "subprogram"}));
 }
 
 void fillTranslation(const Raw& raw, targets::TranslationOptions& options) {
@@ -243,6 +248,7 @@ void fillTranslation(const Raw& raw, targets::TranslationOptions& options) {
   if (!raw.probeMacros.empty()) options.probeMacros = raw.probeMacros;
   options.datum = raw.datum;
   options.results = pairsOf("--result", raw.results);
+  if (raw.calls == targets::callsText(targets::Calls::Subprogram)) options.calls = targets::Calls::Subprogram;
 }
 
 void addSource(CLI::App& app, Raw& raw) {

@@ -42,6 +42,7 @@ struct Raw {
       mapFile, helpersFile;
   std::string defaultsMode = "alarm";
   std::string probePower = "source";
+  std::string calls = "inline";
   std::string datum;
   std::vector<std::string> results;
   std::vector<std::string> variables, shown; // --var, --show

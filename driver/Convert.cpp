@@ -59,8 +59,8 @@ private:
     if (input.refused) return;
     if (!options_.keepGoing) return together(input, step);
     ConversionResult& result = context_.result;
-    const std::array sizes = {result.files.size(), result.maps.size(), result.arguments.size(),
-                              result.macrosByCycle.size(), result.numbers.size()};
+    const std::array sizes = {result.files.size(),         result.maps.size(),    result.arguments.size(),
+                              result.macrosByCycle.size(), result.numbers.size(), result.handedBack.size()};
     Diagnostics others = std::exchange(session_.diagnostics(), Diagnostics());
     step();
     input.refused = session_.diagnostics().hasErrors();
@@ -75,6 +75,7 @@ private:
     result.arguments.resize(sizes[2]);
     result.macrosByCycle.resize(sizes[3]);
     result.numbers.resize(sizes[4]);
+    result.handedBack.resize(sizes[5]);
   }
 
   // An error of one input refuses all; what follows it is not told apart any more.
@@ -126,6 +127,7 @@ private:
     outcome.helpers = std::move(result.helpers);
     outcome.maps = std::move(result.maps);
     outcome.arguments = std::move(result.arguments);
+    outcome.handedBack = std::move(result.handedBack);
     outcome.macros = std::move(result.macros);
     outcome.macrosByCycle = std::move(result.macrosByCycle);
     return outcome;

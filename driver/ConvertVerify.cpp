@@ -71,6 +71,7 @@ std::shared_ptr<const ConvertedInput> resultOf(const Outcome& all, std::size_t f
     out->arguments = all.arguments[cycle];
     out->macros = all.macrosByCycle[cycle];
   }
+  if (cycle < all.handedBack.size()) out->handedBack = all.handedBack[cycle];
   out->sources = all.sources;
   return out;
 }

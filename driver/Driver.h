@@ -84,6 +84,7 @@ struct Outcome {
   std::string macros;              // of convert: the set that the last result calls; "": none
   std::vector<std::vector<OutputArgument>> arguments; // of convert to fanuc, cycle by cycle
   std::vector<std::string> macrosByCycle;             // the sets that these call
+  std::vector<std::set<std::uint32_t>> handedBack;    // as of targets::ConvertedInput
   // Of convert: those whose results are given, in their order; with --keep-going not all. Of layOut: those
   // whose layout is another than that of `files`.
   std::vector<std::string> inputs;

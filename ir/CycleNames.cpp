@@ -51,4 +51,15 @@ std::optional<std::pair<ToolPart, ExpressionPtr>> readTool(const Expression& val
   return std::nullopt;
 }
 
+ExpressionPtr handedBack(std::size_t index, SourceRange range) {
+  return machineVariable(constant(kHandedBack + static_cast<double>(index)), range);
+}
+
+std::optional<std::size_t> handedBackOf(const Expression& value) {
+  const auto* machine = std::get_if<MachineVariable>(&value.node);
+  const double* number = machine == nullptr ? nullptr : constantValue(machine->number);
+  if (number == nullptr || !(*number >= kHandedBack && *number < kToolTable)) return std::nullopt;
+  return static_cast<std::size_t>(*number - kHandedBack);
+}
+
 } // namespace dotek::ir

@@ -3,6 +3,7 @@
 
 #include "ir/Expression.h"
 
+#include <cstddef>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -44,5 +45,13 @@ inline constexpr std::string_view kSurface = "surface";
 // centre to the expected contact, mm; the others as for a surface. Results: the contact in x, y and z, and
 // main: measured less expected along the direction.
 inline constexpr std::string_view kSurfaceAlong = "surface-along";
+// A called cycle that is a program of its own: its place in the list of these programs, and its parameters
+// and host inputs by their names. Of its results the one at `index` of its list is in handedBack(index)
+// afterwards, a variable with a number that no control has, until the next of these calls.
+inline constexpr std::string_view kProgram = "program";
+inline constexpr std::string_view kCalledProgram = "called program";
+inline constexpr double kHandedBack = 8'000'000;
+ExpressionPtr handedBack(std::size_t index, SourceRange range = {});
+std::optional<std::size_t> handedBackOf(const Expression& value); // the index; nothing: another value
 
 } // namespace dotek::ir

@@ -1,5 +1,6 @@
 #include "ir/Verify.h"
 
+#include "ir/CycleNames.h"
 #include "ir/Flow.h"
 #include "ir/Kinds.h"
 #include "ir/Names.h"
@@ -163,8 +164,10 @@ private:
     match(
         statement, [&](const Branch& node) { nullsOf(node.condition, statement, nulls); },
         [&](const OneOf<Assign, OpaqueBlock> auto&) { slotNulls(true, statement, nulls); },
-        [&](const OneOf<Store, Label, Jump, Return, Move, Measure, CallCycle, ProbePower, Spindle, Coolant,
-                        SetMode, Dwell, Stop, Alarm, Comment> auto&) { slotNulls(false, statement, nulls); });
+        // What its caller leaves out a program may be given as it is.
+        [&](const CallCycle& node) { slotNulls(node.cycle == kProgram, statement, nulls); },
+        [&](const OneOf<Store, Label, Jump, Return, Move, Measure, ProbePower, Spindle, Coolant, SetMode,
+                        Dwell, Stop, Alarm, Comment> auto&) { slotNulls(false, statement, nulls); });
   }
 
   void slotNulls(bool free, const CycleStatement& statement, const NumberSet& nulls) {

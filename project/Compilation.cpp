@@ -5,6 +5,7 @@
 #include "frontend/gibbs/Parse.h"
 #include "frontend/macrob/Lower.h"
 #include "frontend/macrob/Parse.h"
+#include "ir/CycleNames.h"
 #include "project/CycleFiles.h"
 #include "project/CycleLowering.h"
 #include "project/CycleValues.h"
@@ -121,24 +122,63 @@ std::optional<LoweredCycle> Compilation::lower(const CycleFolder& folder,
 
 namespace {
 
+constexpr const char* kApproachFeed = "approach_feed";
+
 // A protected move of the language goes at the approach feed where it states none; a control has no such
 // feed.
-void giveApproachFeed(ir::Cycle& cycle) {
-  std::optional<ir::VariableId> feed;
+std::optional<ir::VariableId> approachFeedOf(const ir::Cycle& cycle) {
   for (ir::VariableId id = 0; id < cycle.variables.size(); ++id)
-    if (cycle.variable(id).role == ir::Role::Host && cycle.variable(id).name == "approach_feed") feed = id;
+    if (cycle.variable(id).role == ir::Role::Host && cycle.variable(id).name == kApproachFeed) return id;
+  return std::nullopt;
+}
+
+ir::VariableId addApproachFeed(ir::Cycle& cycle) {
+  ir::Variable variable;
+  variable.name = kApproachFeed;
+  variable.kind = ir::Kind::Feed;
+  variable.role = ir::Role::Host;
+  variable.range = cycle.range;
+  return cycle.add(std::move(variable));
+}
+
+void giveApproachFeed(ir::Cycle& cycle) {
+  std::optional<ir::VariableId> feed = approachFeedOf(cycle);
   for (ir::CycleStatement& statement : cycle.body) {
     auto* move = std::get_if<ir::Move>(&statement.node);
     if (move == nullptr || move->motion != ir::Motion::Protected || move->feed != nullptr) continue;
-    if (!feed) {
-      ir::Variable variable;
-      variable.name = "approach_feed";
-      variable.kind = ir::Kind::Feed;
-      variable.role = ir::Role::Host;
-      variable.range = cycle.range;
-      feed = cycle.add(std::move(variable));
-    }
+    if (!feed) feed = addApproachFeed(cycle);
     move->feed = ir::variable(*feed, statement.origin.range());
+  }
+}
+
+// Calls of programs that take the feed hand it on. true: something was added.
+bool handOnApproachFeed(ir::Cycle& cycle, const std::vector<LoweredProgram>& programs) {
+  bool out = false;
+  for (ir::CycleStatement& statement : cycle.body) {
+    auto* call = std::get_if<ir::CallCycle>(&statement.node);
+    if (call == nullptr || call->cycle != ir::kProgram) continue;
+    const auto argument = [&](std::string_view name) {
+      return std::find_if(call->arguments.begin(), call->arguments.end(),
+                          [&](const ir::CycleArgument& one) { return one.parameter == name; });
+    };
+    const auto called = argument(ir::kCalledProgram);
+    const double* index = called == call->arguments.end() ? nullptr : ir::constantValue(called->value);
+    if (index == nullptr || argument(kApproachFeed) != call->arguments.end() ||
+        !approachFeedOf(programs.at(static_cast<std::size_t>(*index)).cycle))
+      continue;
+    const std::optional<ir::VariableId> own = approachFeedOf(cycle);
+    const ir::VariableId feed = own ? *own : addApproachFeed(cycle);
+    call->arguments.push_back({kApproachFeed, ir::variable(feed), std::nullopt, ir::Kind::Feed, true});
+    out = true;
+  }
+  return out;
+}
+
+void handOnApproachFeed(LoweredCycle& all) {
+  for (bool changed = true; changed;) {
+    changed = handOnApproachFeed(all.cycle, all.programs);
+    for (LoweredProgram& program : all.programs)
+      changed = handOnApproachFeed(program.cycle, all.programs) || changed;
   }
 }
 
@@ -181,12 +221,29 @@ std::optional<LoweredCycle> Compilation::lowerFile(const std::string& path, cons
     takeLiterals();
     if (loadSettings(source) == nullptr) return std::nullopt;
   }
-  std::optional<frontend::cycle::Lowered> lowered = lowerCycleFile(path, session_);
+  std::optional<frontend::cycle::Lowered> lowered = lowerCycleFile(path, session_, programLevels_);
   if (!lowered) return std::nullopt;
   LoweredCycle out;
   out.cycle = std::move(lowered->cycle);
   out.letters = std::move(lowered->letters);
   giveApproachFeed(out.cycle);
+  for (frontend::cycle::CalledProgram& one : lowered->programs) {
+    LoweredProgram& program = out.programs.emplace_back();
+    program.cycle = std::move(one.cycle);
+    program.letters = std::move(one.letters);
+    program.results = std::move(one.results);
+    program.readResults = std::move(one.readResults);
+    giveApproachFeed(program.cycle);
+  }
+  handOnApproachFeed(out);
+  for (LoweredProgram& program : out.programs)
+    for (ir::VariableId id = 0; id < program.cycle.variables.size(); ++id) {
+      const ir::Variable& variable = program.cycle.variable(id);
+      const auto given = inputs_->hosts.find(variable.name);
+      if (variable.role == ir::Role::Host && !variable.name.starts_with("start_") &&
+          given != inputs_->hosts.end())
+        program.fixed[id] = given->second;
+    }
   std::set<std::string> names;
   const auto sets = setsOf(path, *inputs_, session_);
   for (ir::VariableId id = 0; id < out.cycle.variables.size(); ++id) {
@@ -204,6 +261,8 @@ std::optional<LoweredCycle> Compilation::lowerFile(const std::string& path, cons
     if (const auto given = inputs_->hosts.find(variable.name); given != inputs_->hosts.end())
       fix(given->second);
   }
+  for (frontend::cycle::CallInPlace& one : lowered->inPlace)
+    out.inPlace.push_back({one.range, std::move(one.cycle), std::move(one.why)});
   for (const auto& [name, value] : sets) {
     if (inputs_->oneOfSeveral && !names.contains(name)) continue;
     usedSets_.insert(name); // reported here, once

@@ -28,7 +28,7 @@ bool isCycleFile(const std::string& path, Session& session) {
 namespace {
 
 // Of a cycle in which check() found no error. What it calls has to be sound as well; it is checked once.
-std::optional<cycle::Lowered> lowered(const cycle::File& file, Session& session) {
+std::optional<cycle::Lowered> lowered(const cycle::File& file, Session& session, std::uint32_t levels = 0) {
   Diagnostics& diagnostics = session.diagnostics();
   std::set<const cycle::File*> seen = {&file};
   const auto checkCalled = [&](const auto& self, const cycle::File& one) -> void {
@@ -40,22 +40,28 @@ std::optional<cycle::Lowered> lowered(const cycle::File& file, Session& session)
   };
   checkCalled(checkCalled, file);
   if (diagnostics.hasErrors()) return std::nullopt;
-  std::optional<cycle::Lowered> out = cycle::lower(file, session.sources(), diagnostics);
+  std::optional<cycle::Lowered> out = cycle::lower(file, session.sources(), diagnostics, levels);
   if (!out || diagnostics.hasErrors()) return std::nullopt;
-  for (const ir::Violation& violation : ir::verify(out->cycle))
-    if (!violation.mixedKinds) // the checks of the language know the kinds better
-      diagnostics.report<diag::InternalDefect>(violation.range, violation.message);
+  const auto verify = [&](const ir::Cycle& one) {
+    for (const ir::Violation& violation : ir::verify(one))
+      if (!violation.mixedKinds) // the checks of the language know the kinds better
+        diagnostics.report<diag::InternalDefect>(violation.range, violation.message);
+  };
+  verify(out->cycle);
+  for (const cycle::CalledProgram& program : out->programs)
+    if (!program.cycle.name.empty()) verify(program.cycle);
   if (diagnostics.hasErrors()) return std::nullopt;
   return out;
 }
 
 } // namespace
 
-std::optional<cycle::Lowered> lowerCycleFile(const std::string& path, Session& session) {
+std::optional<cycle::Lowered> lowerCycleFile(const std::string& path, Session& session,
+                                             std::uint32_t programLevels) {
   CycleFiles files(session);
   const cycle::File* file = files.check(path);
   if (file == nullptr || file->hasErrorNodes || session.diagnostics().hasErrors()) return std::nullopt;
-  return lowered(*file, session);
+  return lowered(*file, session, programLevels);
 }
 
 std::optional<FileId> checkCycleFile(const std::string& path, CycleFiles& files, Session& session) {

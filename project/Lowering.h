@@ -62,6 +62,19 @@ bool loadProgInto(LoweringInputs& inputs, const SourceOptions& source, Session& 
 // The form of this name, and the control that it is of. What is missing is reported.
 void useForm(LoweringInputs& inputs, const std::string& name, Session& session);
 
+// A cycle that a call is a program of (frontend/cycle/Lower.h).
+struct LoweredProgram {
+  ir::Cycle cycle;                        // one without a name is called by none
+  std::map<ir::VariableId, double> fixed; // as of LoweredCycle
+  std::map<ir::VariableId, char> letters;
+  std::vector<std::string> results;  // in the order of ir::handedBack()
+  std::set<std::string> readResults; // those that some caller reads
+};
+struct CycleInPlace {
+  SourceRange call;
+  std::string cycle, why;
+};
+
 struct LoweredCycle {
   ir::Cycle cycle;
   const stdlib::MacroSet* macros = nullptr;  // the set that the source calls; nullptr: none
@@ -72,6 +85,8 @@ struct LoweredCycle {
   // Fields that CycleData.mac computes from others: locals, with the text of what is computed.
   std::map<ir::VariableId, std::string> computed;
   std::map<ir::VariableId, char> letters; // that the source wishes for arguments
+  std::vector<LoweredProgram> programs;   // that ir::kProgram calls, by its number
+  std::vector<CycleInPlace> inPlace;      // calls that could be none of a program
   bool checked = true; // the checks of the dialog are lowered; false of a lenient one that cannot read them
 };
 

@@ -36,6 +36,7 @@ std::vector<std::string> cycleOptions(const ConvertOptions& options) {
   add(options.useDefaults, "--defaults");
   add(options.switchProbe, "--probe-power");
   add(!options.results.empty(), "--result");
+  add(options.calls != Calls::Inline, "--calls");
   for (const std::string& name : common.assume)
     // The run of --verify takes it for the source.
     if (name != "plain-messages" && !(name == "probe-on" && options.verify))

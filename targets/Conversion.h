@@ -27,6 +27,7 @@ struct ConversionResult {
   // Of programs that are called, cycle by cycle; empty where a target writes no such program.
   std::vector<std::vector<OutputArgument>> arguments;
   std::vector<std::string> macrosByCycle;
+  std::vector<std::set<std::uint32_t>> handedBack;            // as of ConvertedInput
   std::string helpers;                                        // what the files share, with --helpers
   std::string macros;                                         // the set that the last result calls; "": none
   std::vector<std::pair<std::uint64_t, std::string>> numbers; // of programs, with their inputs

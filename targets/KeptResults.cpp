@@ -13,10 +13,7 @@
 
 namespace dotek::targets {
 
-namespace {
-
-// "#520" or "520"; nothing: it is none.
-std::optional<std::uint32_t> numberOf(std::string_view text) {
+std::optional<std::uint32_t> resultNumber(std::string_view text) {
   if (text.starts_with('#')) text.remove_prefix(1);
   std::uint32_t out = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), out);
@@ -24,17 +21,20 @@ std::optional<std::uint32_t> numberOf(std::string_view text) {
   return out;
 }
 
+namespace {
+
 std::string heading(std::string_view what, std::string_view name, std::uint32_t number) {
   return fmt::format("{} {} IN #{}", what, upperCase(name), number);
 }
 
 } // namespace
 
-KeptResults keepResults(ir::Cycle& cycle, const NamedTexts& given, Diagnostics& diagnostics) {
+KeptResults keepResults(ir::Cycle& cycle, const NamedTexts& given, Diagnostics& diagnostics,
+                        const std::function<std::optional<std::uint32_t>(const std::string& name)>& handed) {
   KeptResults out;
   std::map<std::string, std::uint32_t> wanted;
   for (const auto& [name, text] : given) {
-    const std::optional<std::uint32_t> number = numberOf(text);
+    const std::optional<std::uint32_t> number = resultNumber(text);
     if (!number || !wanted.emplace(name, *number).second || !out.numbers.insert(*number).second)
       diagnostics.report<diag::CycleResultNumber>({}, name, text);
   }
@@ -57,6 +57,12 @@ KeptResults keepResults(ir::Cycle& cycle, const NamedTexts& given, Diagnostics& 
     for (const ir::CycleArgument& one : call->arguments) {
       const bool first = known.insert(one.parameter).second;
       const auto at = wanted.find(one.parameter);
+      const auto back = handed == nullptr || stored ? std::nullopt : handed(one.parameter);
+      if (back) {
+        if (first) out.headings.push_back(heading("HANDS BACK", one.parameter, *back));
+        body.push_back({ir::Store{ir::constant(*back), one.value}, statement.origin});
+        continue;
+      }
       if (at == wanted.end()) {
         if (first) out.lost.push_back(one.parameter);
         continue;

@@ -6,8 +6,11 @@
 #include "targets/Options.h"
 
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace dotek::targets {
@@ -23,6 +26,11 @@ struct KeptResults {
 // leaves its caller; the others are left out. So does each value for later runs (`set stored NAME`) become a
 // store; those that are not named stay as they are. Names that it does not have and numbers that are none are
 // reported. Whether the control has the variable says who writes the program.
-KeptResults keepResults(ir::Cycle& cycle, const NamedTexts& given, Diagnostics& diagnostics);
+// `handed`: where else a result goes whose name is not given, without a heading of --result.
+KeptResults
+keepResults(ir::Cycle& cycle, const NamedTexts& given, Diagnostics& diagnostics,
+            const std::function<std::optional<std::uint32_t>(const std::string& name)>& handed = nullptr);
+// "#520" or "520"; nothing: it is no number of a variable.
+std::optional<std::uint32_t> resultNumber(std::string_view text);
 
 } // namespace dotek::targets

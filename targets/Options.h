@@ -12,6 +12,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -21,6 +22,12 @@ namespace dotek::targets {
 
 // A target is a view of a project and speaks of its parts by their names.
 using namespace project; // NOLINT(google-build-using-namespace)
+
+// How a call of a cycle of the cycle language is written.
+enum class Calls : std::uint8_t {
+  Inline,     // the called cycle in its place
+  Subprogram, // a program of the same file
+};
 
 // What a translation is, for who writes it and for who compares it with its source.
 struct TranslationOptions {
@@ -32,6 +39,7 @@ struct TranslationOptions {
   std::string fromControl;                // that programs are written for; "": the same
   std::optional<std::string> probeMacros; // nothing: the set that the source calls
   std::string datum;                      // --datum of mikroprog: "", "g92" or "operator"
+  Calls calls = Calls::Inline;            // --calls, of files of the cycle language
   NamedTexts results;                     // --result NAME=#NUMBER, of files of the cycle language
   // Told from time to time how many cases are done; from one thread at a time.
   std::function<void(const std::string& text)> progress;
@@ -67,8 +75,9 @@ struct ConvertedInput {
   OutputFile file;
   MappedResult map; // places are of `sources`
   std::vector<OutputArgument> arguments;
-  std::string macros; // the set that it calls; "": none
-  Diagnostics said;   // by convert, of this input
+  std::set<std::uint32_t> handedBack; // common variables in which its programs hand results to one another
+  std::string macros;                 // the set that it calls; "": none
+  Diagnostics said;                   // by convert, of this input
   SourceMap sources;
 };
 

@@ -28,6 +28,7 @@ struct Translation {
   std::string name, text;
   std::string converted; // the text that convert writes, where `text` is one that was edited; "": it is that
   std::vector<OutputArgument> arguments;
+  std::set<std::uint32_t> handedBack; // common variables that its programs work in
   // By line from 0: files and lines; empty: made up. Nothing: not known, of a line that was edited.
   std::vector<std::optional<std::set<std::pair<std::string, std::uint32_t>>>> sources;
 

@@ -60,6 +60,11 @@ std::string targetNames() {
   return out;
 }
 
+std::string_view callsText(Calls calls) {
+  constexpr std::string_view kTexts[] = {"inline", "subprogram"};
+  return kTexts[static_cast<std::size_t>(calls)];
+}
+
 void checkTargetOptions(const Target& target, const ConvertOptions& options, Diagnostics& diagnostics) {
   const Given flags[] = {{TargetFlag::Arg, !options.letters.empty(), "--arg"},
                          {TargetFlag::ProgramNumber, options.programNumber.has_value(), "--program-number"},
@@ -68,7 +73,8 @@ void checkTargetOptions(const Target& target, const ConvertOptions& options, Dia
                          {TargetFlag::ProbePower, options.switchProbe, "--probe-power macro"},
                          {TargetFlag::WholePost, options.wholePost, "--whole-post"},
                          {TargetFlag::Helpers, options.helpersApart, "--helpers"},
-                         {TargetFlag::Result, !options.results.empty(), "--result"}};
+                         {TargetFlag::Result, !options.results.empty(), "--result"},
+                         {TargetFlag::Calls, options.calls != Calls::Inline, "--calls subprogram"}};
   refuse(target, options.to, flags, diagnostics);
   checkDatum(target, options.to, options.datum, diagnostics);
   if (target.checkConvert != nullptr) target.checkConvert(options, diagnostics);
@@ -98,7 +104,8 @@ void checkTargetOptions(const Target& target, const VerifyOptions& options, Diag
                          {TargetFlag::ProbeMacros, options.probeMacros.has_value(), "--probe-macros"},
                          {TargetFlag::DefaultsUse, options.useDefaults, "--defaults use"},
                          {TargetFlag::ProbePower, options.switchProbe, "--probe-power macro"},
-                         {TargetFlag::Result, !options.results.empty(), "--result"}};
+                         {TargetFlag::Result, !options.results.empty(), "--result"},
+                         {TargetFlag::Calls, options.calls != Calls::Inline, "--calls subprogram"}};
   refuse(target, options.to, flags, diagnostics);
   checkDatum(target, options.to, options.datum, diagnostics);
 }

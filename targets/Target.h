@@ -27,7 +27,8 @@ enum class TargetFlag : std::uint8_t {
   ProbePower,
   WholePost,
   Helpers,
-  Result
+  Result,
+  Calls
 };
 
 struct Target {
@@ -63,6 +64,7 @@ struct NamedTarget {
   const Target* target = nullptr;
 };
 
+std::string_view callsText(Calls calls); // as --calls names it
 // All targets, sorted by name.
 std::span<const NamedTarget> allTargets();
 const Target* findTarget(std::string_view name); // nullptr: there is none

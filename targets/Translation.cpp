@@ -14,11 +14,13 @@ namespace dotek::targets {
 namespace {
 
 Translation translationOf(const OutputFile& file, const MappedResult& map,
-                          const std::vector<OutputArgument>& arguments, const SourceMap& sources) {
+                          const std::vector<OutputArgument>& arguments,
+                          const std::set<std::uint32_t>& handedBack, const SourceMap& sources) {
   Translation out;
   out.name = file.name;
   out.text = file.text;
   out.arguments = arguments;
+  out.handedBack = handedBack;
   for (const MappedLine& line : map.lines) {
     auto& places = out.sources.emplace_back().emplace();
     for (const SourceRange& range : line.ranges)
@@ -44,7 +46,9 @@ std::optional<Translated> translated(const VerifyOptions& options, Compilation& 
                                      LoweringInputs* inputs) {
   if (const ConvertedInput* given = options.converted.get()) {
     Translated out{
-        translationOf(given->file, given->map, given->arguments, given->sources), given->macros, {}};
+        translationOf(given->file, given->map, given->arguments, given->handedBack, given->sources),
+        given->macros,
+        {}};
     addFindings(given->said, given->sources, out.said);
     return out;
   }
@@ -74,6 +78,7 @@ std::optional<Translated> translated(const VerifyOptions& options, Compilation& 
   Translated out{
       translationOf(result.files.back(), result.maps.back(),
                     result.arguments.empty() ? std::vector<OutputArgument>() : result.arguments.front(),
+                    result.handedBack.empty() ? std::set<std::uint32_t>() : result.handedBack.front(),
                     session.sources()),
       result.macros,
       {}};

@@ -256,6 +256,7 @@ std::string VerifyReport::command() const {
   if (!options_.fromControl.empty()) flag("--from-control", options_.fromControl);
   if (options_.probeMacros) flag("--probe-macros", *options_.probeMacros);
   if (!options_.datum.empty()) flag("--datum", options_.datum);
+  if (options_.calls != Calls::Inline) flag("--calls", std::string(callsText(options_.calls)));
   for (const auto& [name, variable] : options_.results)
     flag("--result", name + "=" + variable);
   for (const auto& [name, value] : options_.defaults)

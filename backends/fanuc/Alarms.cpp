@@ -42,8 +42,8 @@ std::string cut(const std::string& text, std::size_t length) {
 }
 
 std::uint32_t nextNumber(State& state, SourceRange range) {
-  const std::uint32_t number =
-      std::max(kFirstAlarm, state.control.alarmFirst) + static_cast<std::uint32_t>(state.alarms.size());
+  const std::uint32_t number = std::max(kFirstAlarm, state.control.alarmFirst) + state.options.alarmsBefore +
+                               static_cast<std::uint32_t>(state.alarms.size());
   if (number > state.control.alarmLast)
     state.refuse<diag::TooManyAlarms>(range, state.control.title, state.control.alarmLast);
   return number;

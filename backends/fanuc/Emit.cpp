@@ -27,9 +27,14 @@ ir::Origin made(std::string reason) {
   return out;
 }
 
-bool switches(const ir::Cycle& cycle, bool on) {
-  return std::any_of(cycle.body.begin(), cycle.body.end(),
-                     [&](const ir::CycleStatement& statement) { return ir::switchesProbe(statement) == on; });
+bool switches(const State& state, bool on) {
+  const auto& body = state.cycle.body;
+  return std::any_of(body.begin(), body.end(), [&](const ir::CycleStatement& statement) {
+    const auto* call = std::get_if<ir::CallCycle>(&statement.node);
+    if (const CalledProgram* const program = call == nullptr ? nullptr : calledProgram(state, *call))
+      return on ? program->switchesOn : program->switchesOff;
+    return ir::switchesProbe(statement) == on;
+  });
 }
 
 // Between the modes: the cycle's blocks.
@@ -39,10 +44,10 @@ void writeBody(State& state) {
   if (state.failed) return;
   state.body = &body;
   const bool macro = state.options.probePower == ProbePowerMode::Macro && ir::probes(state.cycle);
-  if (macro && !switches(state.cycle, true)) writeProbePower(state, true, made("probe on"));
+  if (macro && !switches(state, true)) writeProbePower(state, true, made("probe on"));
   writeList(state, state.cycle.body, true);
-  if (macro && !switches(state.cycle, false)) writeProbePower(state, false, made("probe off"));
-  if (switches(state.cycle, true) && !switches(state.cycle, false) && !macro)
+  if (macro && !switches(state, false)) writeProbePower(state, false, made("probe off"));
+  if (switches(state, true) && !switches(state, false) && !macro)
     state.remarks.push_back("THE PROBE STAYS ON");
   state.body = nullptr;
 }
@@ -107,7 +112,7 @@ bool fits(const EmitOptions& options, SourceRange range, Diagnostics& diagnostic
 
 std::optional<std::vector<EmittedLine>> emit(const ir::Cycle& given, const EmitOptions& options,
                                              const SourceMap& sources, Diagnostics& diagnostics,
-                                             std::vector<Argument>* assigned) {
+                                             std::vector<Argument>* assigned, std::uint32_t* alarms) {
   if (!fits(options, given.range, diagnostics)) return std::nullopt;
   const ir::Cycle cycle = withTouchCalls(given, options.macros);
   auto arguments = assignLetters(cycle, options, diagnostics);
@@ -133,7 +138,7 @@ std::optional<std::vector<EmittedLine>> emit(const ir::Cycle& given, const EmitO
   planDemands(state);
   writeArguments(state);
   writeStarts(state);
-  writeRequirements(state);
+  if (!options.calledFrom) writeRequirements(state);
   writeList(state, state.cycle.checks, false);
   for (const NamedSystem& system : std::exchange(state.systems, {}))
     writeSystemAlarm(state, system, made("range of the work system"));
@@ -150,13 +155,14 @@ std::optional<std::vector<EmittedLine>> emit(const ir::Cycle& given, const EmitO
   if (end == nullptr) state.refuse<diag::NoCode>(cycle.range, state.control.title, "the end of a program");
   if (state.failed) return std::nullopt;
   state.sheet.add(codeText(*end), made("end of the program"));
-  state.sheet.add("%", made("end of the file"));
+  if (options.ends) state.sheet.add("%", made("end of the file"));
 
   Sheet whole = header(state);
   whole.append(state.sheet);
   auto lines = whole.finish(state.control.sequenceLast);
   if (!lines) state.refuse<diag::TooManyJumps>(cycle.range, state.control.title, state.control.sequenceLast);
   if (state.failed) return std::nullopt;
+  if (alarms != nullptr) *alarms = static_cast<std::uint32_t>(state.alarms.size());
   return lines;
 }
 

@@ -34,6 +34,21 @@ struct BranchOptions {
   bool modes = true;             // the blocks begin with the modes that they count on
 };
 
+// The argument of a parameter or host input in a call of the program.
+struct Argument {
+  ir::VariableId variable = 0;
+  char letter = 0;
+  std::uint32_t local = 0; // #n
+};
+
+// A program of the same file that ir::kProgram calls.
+struct CalledProgram {
+  std::uint32_t number = 0;
+  const ir::Cycle* cycle = nullptr;
+  std::vector<Argument> arguments;
+  bool switchesOn = false, switchesOff = false; // the probe, by itself or by those that it calls
+};
+
 struct EmitOptions {
   const stdlib::Control& control;
   const stdlib::MacroSet& macros;
@@ -53,13 +68,11 @@ struct EmitOptions {
   const ir::Cycle* unshared = nullptr; // the cycle before its locals took over arguments: says what those do
   std::vector<std::string> remarks = {};              // further lines of the header, capitals and digits
   std::optional<BranchOptions> branch = std::nullopt; // of emitBranch() alone
-};
-
-// The argument of a parameter or host input in a call of the program.
-struct Argument {
-  ir::VariableId variable = 0;
-  char letter = 0;
-  std::uint32_t local = 0; // #n
+  std::vector<CalledProgram> programs = {};           // by the number that ir::kProgram names
+  // It is one of them: the program of this number has asked for what its caller has to provide.
+  std::optional<std::uint32_t> calledFrom = std::nullopt;
+  std::uint32_t alarmsBefore = 0; // of the programs before it in the file
+  bool ends = true;               // the file ends with it
 };
 
 // Letters for the parameters and host inputs that `cycle` still uses (docs/convert.md, "Letters"), parameters
@@ -69,10 +82,11 @@ std::optional<std::vector<Argument>> assignLetters(const ir::Cycle& cycle, const
                                                    Diagnostics& diagnostics);
 
 // The program, `%` lines included. nullopt where the control or the macro set cannot say something: reported.
-// `assigned`, unless it is nullptr, gets the letters of the program.
+// `assigned`, unless it is nullptr, gets the letters of the program; `alarms` how many it has.
 std::optional<std::vector<EmittedLine>> emit(const ir::Cycle& cycle, const EmitOptions& options,
                                              const SourceMap& sources, Diagnostics& diagnostics,
-                                             std::vector<Argument>* assigned = nullptr);
+                                             std::vector<Argument>* assigned = nullptr,
+                                             std::uint32_t* alarms = nullptr);
 
 // The blocks of `options.branch`. The checks of the cycle are the dialog's business, and the body may rely on
 // them. nullopt where the control or the macro set cannot say something, or where a jump would lead back: a

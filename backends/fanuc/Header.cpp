@@ -7,6 +7,7 @@
 #include "support/Decimal.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 namespace dotek::backends::fanuc {
 
@@ -33,10 +34,11 @@ public:
   explicit Header(State& state) : state_(state) {}
 
   Sheet write() {
-    out_.add("%", origin("begin of the file"));
+    if (!state_.options.calledFrom) out_.add("%", origin("begin of the file"));
     out_.add("O" + number() + "(" + title() + ")", origin("program number"));
     if (isCut()) say(wholeTitle());
     if (!state_.cycle.title.empty()) say("CYCLE " + state_.cycle.name);
+    if (state_.options.calledFrom) return writeCalled();
     say("FOR " + state_.control.title +
         (state_.macros.name.empty() ? "" : ", MACROS OF " + state_.macros.title));
     if (!state_.cycle.measurementStated)
@@ -57,6 +59,19 @@ public:
   }
 
 private:
+  // Who calls it by hand reads what the program before it says of the machine.
+  Sheet writeCalled() {
+    say(fmt::format("PART OF O{:04}, WHICH CHECKS WHAT THE CALLER PROVIDES", *state_.options.calledFrom));
+    table();
+    effects();
+    fixed();
+    alarms();
+    for (const std::string& remark : state_.options.remarks)
+      say(remark);
+    for (const std::string& remark : state_.remarks)
+      say(remark);
+    return std::move(out_);
+  }
   static ir::Origin origin(std::string reason) {
     ir::Origin out;
     out.reason = std::move(reason);

@@ -115,7 +115,7 @@ void warnIfOff(State& state, const ir::Origin& origin) {
   });
   if (switched || state.options.probePower == ProbePowerMode::Macro) return;
   if (!state.reported.insert("probe off").second) return;
-  state.diagnostics.report<diag::ProbeNotSwitched>(origin.range());
+  if (!state.options.calledFrom) state.diagnostics.report<diag::ProbeNotSwitched>(origin.range());
   state.remarks.push_back("THIS PROGRAM DOES NOT SWITCH THE PROBE ON: THE CALLER DOES");
 }
 

@@ -26,8 +26,10 @@ bool setsWorkSystem(const ir::Cycle& cycle) {
 } // namespace
 
 std::vector<SavedMode> planModes(State& state) {
-  std::vector<Function> groups = {Function::Rapid, Function::PlaneXY, Function::Absolute,
-                                  Function::FeedPerMinute};
+  // What calls it within its file counts on these modes, too, and puts its own caller's back.
+  const bool called = state.options.calledFrom.has_value();
+  std::vector<Function> groups;
+  if (!called) groups = {Function::Rapid, Function::PlaneXY, Function::Absolute, Function::FeedPerMinute};
   if (setsWorkSystem(state.cycle) || state.copied.workSystem) groups.push_back(Function::WorkSystem);
   std::vector<SavedMode> out;
   const auto take = [&](const stdlib::CodeInfo* code) {
@@ -48,6 +50,7 @@ std::vector<SavedMode> planModes(State& state) {
     else
       lost += " " + codeText(*code);
   }
+  if (called) return out;
   if (state.control.variables.modalFeed)
     take(nullptr);
   else

@@ -28,6 +28,10 @@ bool writeOwnCycle(State& state, const ir::CallCycle& cycle, const ir::Origin& o
     state.refuse<diag::CycleStatementCannot>(range, what, state.control.title, state.macros.title, remedy);
     return true;
   };
+  if (const CalledProgram* const program = calledProgram(state, cycle)) {
+    writeProgramCall(state, *program, cycle, origin);
+    return true;
+  }
   if (cycle.cycle == ir::kSetOffset) {
     writeSetOffset(state, cycle, origin);
     return true;

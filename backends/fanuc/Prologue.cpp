@@ -145,7 +145,7 @@ void writeArguments(State& state) {
     if (mayBeOmitted(state, argument.variable)) {
       const std::string value = valueText(state, ir::constant(*variable.defaultValue), origin);
       doIf(state, omitted, state.local(argument.variable) + "=" + value, origin);
-    } else {
+    } else if (!state.options.calledFrom) {
       alarmIf(state, omitted, std::string("ARGUMENT ") + argument.letter + " MISSING", origin);
     }
   }

@@ -246,6 +246,15 @@ ir::ExpressionPtr positionNow(State& state, ir::Axis axis, const ir::Origin& ori
 void writeProtectedMove(State& state, const ir::Move& move, const ir::Origin& origin);
 void writeMeasure(State& state, const ir::Measure& measure, const ir::Origin& origin);
 void writeCycle(State& state, const ir::CallCycle& cycle, const ir::Origin& origin);
+// ---- CalledPrograms.cpp ----
+
+// The program that ir::kProgram calls; nullptr: it is another call.
+const CalledProgram* calledProgram(const State& state, const ir::CallCycle& call);
+void writeProgramCall(State& state, const CalledProgram& program, const ir::CallCycle& call,
+                      const ir::Origin& origin);
+
+// ---- MacroCalls.cpp ----
+
 // By the macro set's own call, else by the control's code; reports where neither has one.
 void writeProbePower(State& state, bool on, const ir::Origin& origin);
 
@@ -269,6 +278,8 @@ bool knownAtEntry(const State& state, const ir::ExpressionPtr& value);
 // Numbers with which a macro of the set that the source calls sets G54.1 P1 and following, counted as those
 // of the system are; none where another set is called.
 ExtendedSystems extendedSystems(const State& state, const stdlib::MacroSignature& signature);
+// Makes sure that there is such a tool offset. false: refused.
+bool guardTool(State& state, const ir::ExpressionPtr& tool, const ir::Origin& origin);
 // Makes sure that `system` is 54 to 59, or one of `extended`, where nothing else does.
 void guardSystem(State& state, const ir::ExpressionPtr& system, const ir::Origin& origin,
                  const ExtendedSystems& extended = {});

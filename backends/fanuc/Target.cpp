@@ -2,6 +2,7 @@
 #include "targets/Target.h"
 #include "backends/common/ToolLength.h"
 #include "backends/fanuc/Emit.h"
+#include "backends/fanuc/TargetCalls.h"
 #include "backends/fanuc/TargetEarly.h"
 #include "backends/fanuc/TargetPrograms.h"
 #include "backends/fanuc/TargetVerify.h"
@@ -10,7 +11,6 @@
 #include "ir/CycleNames.h"
 #include "ir/Fold.h"
 #include "ir/Positions.h"
-#include "ir/ShareVariables.h"
 #include "ir/Walk.h"
 #include "project/MillControl.h"
 #include "stdlib/SearchTravel.h"
@@ -43,7 +43,10 @@ public:
   bool beginPrograms() override { return programs_.load(); }
 
   bool cycle(const CycleFolder& folder, std::size_t index) override {
+    if (options_.calls != Calls::Inline && context_.inputs->control)
+      context_.compilation.callPrograms(programLevels(*context_.inputs->control));
     std::optional<LoweredSource> source = lowerSource(folder, context_);
+    context_.compilation.callPrograms(0);
     if (!source) return false;
     LoweredCycle& lowered = source->lowered;
     const LoweringInputs& inputs = *context_.inputs;
@@ -57,9 +60,13 @@ public:
         lowered.fixedByName.erase(variable.name);
     }
     const bool ofLanguage = context_.compilation.fileOf(folder) != nullptr;
+    if (!ofLanguage && options_.calls != Calls::Inline)
+      session_.diagnostics().report<diag::CallsOfLanguage>({}, callsText(options_.calls), folder.name);
+    if (!lowered.programs.empty()) ir::fold(lowered.cycle, lowered.fixed); // drops calls that are never made
+    CalledPrograms called(lowered, context_, *macros);
     KeptResults results;
     if (ofLanguage)
-      results = leaveResults(lowered.cycle, *macros);
+      results = leaveResults(lowered.cycle, *macros, called);
     else
       for (const auto& [name, number] : options_.results)
         session_.diagnostics().report<diag::CycleResultUnknown>({}, name, folder.name, "");
@@ -96,9 +103,12 @@ public:
     if (const auto given = inputs.hosts.find("overtravel");
         ofLanguage && travels && given != inputs.hosts.end())
       emit.fixed.insert(*given);
+    if (!called.addTo(emit)) return true;
     std::vector<fanuc::Argument> letters;
-    const auto lines = written(lowered.cycle, emit, ofLanguage, letters);
-    if (!lines) return true;
+    std::uint32_t alarms = 0;
+    auto lines = emitSharing(lowered.cycle, emit, ofLanguage, session_.sources(), session_.diagnostics(),
+                             letters, &alarms);
+    if (!lines || !called.append(emit, alarms, *lines)) return true;
     warnOfEarlyReads(*lines, *inputs.control, session_);
     std::vector<OutputArgument> arguments;
     for (const fanuc::Argument& one : letters)
@@ -107,7 +117,11 @@ public:
     result.arguments.push_back(std::move(arguments));
     result.macros = macros->name;
     result.macrosByCycle.push_back(macros->name);
+    result.handedBack.push_back(called.handedBack());
     result.numbers.emplace_back(emit.programNumber, folder.name);
+    for (std::uint32_t i = 0; i < called.count(); ++i)
+      result.numbers.emplace_back(nextCalled_ + i, folder.name);
+    nextCalled_ += called.count();
     result.add(fmt::format("O{:04}.nc", emit.programNumber), *lines);
     result.files.back().mark = markOf(*lines);
     return true;
@@ -137,8 +151,11 @@ private:
   }
 
   // A program hands nothing back but what --result names.
-  KeptResults leaveResults(ir::Cycle& cycle, const stdlib::MacroSet& macros) {
+  KeptResults leaveResults(ir::Cycle& cycle, const stdlib::MacroSet& macros, CalledPrograms& called) {
     NamedTexts wanted = options_.results;
+    const std::set<std::string> stored = called.stored();
+    std::erase_if(wanted, [&](const auto& one) { return stored.contains(one.first); });
+    takenResults_.insert(stored.begin(), stored.end());
     if (context_.inputs->oneOfSeveral) { // each takes those that it has
       std::set<std::string> own;
       for (const ir::CycleStatement& statement : cycle.body)
@@ -150,6 +167,9 @@ private:
       takenResults_.merge(own);
     }
     KeptResults out = keepResults(cycle, wanted, session_.diagnostics());
+    if (nextCalled_ == 0) // after those of all inputs
+      nextCalled_ = numberOf(std::max<std::size_t>(context_.folders.size(), 1));
+    called.prepare(nextCalled_, out);
     const auto keeps = [&](std::uint32_t number) {
       const auto& common = context_.inputs->control->common;
       return std::any_of(common.begin(), common.end(), [&](const stdlib::VariableRange& range) {
@@ -165,30 +185,6 @@ private:
     for (const std::string& name : out.lost)
       session_.diagnostics().report<diag::ResultNotLeft>(cycle.range, name);
     return out;
-  }
-
-  // A cycle of the language, with those that it calls, has more names than a control has locals: where they
-  // do not do, names share one that are not needed at the same time.
-  std::optional<std::vector<backends::EmittedLine>> written(const ir::Cycle& cycle,
-                                                            const fanuc::EmitOptions& emit, bool mayShare,
-                                                            std::vector<fanuc::Argument>& letters) {
-    Diagnostics said;
-    auto lines = fanuc::emit(cycle, emit, session_.sources(), said, &letters);
-    for (const ir::Sharing sharing : {ir::Sharing::Locals, ir::Sharing::Arguments}) {
-      const bool few = !lines && std::any_of(said.all().begin(), said.all().end(), [](const Diagnostic& one) {
-        return one.code == diag::TooManyLocals::code || one.code == diag::ExpressionDepth::code;
-      });
-      if (!few || !mayShare) break;
-      ir::Cycle shared = cycle;
-      ir::shareVariables(shared, sharing);
-      fanuc::EmitOptions options = emit;
-      if (sharing == ir::Sharing::Arguments) options.unshared = &cycle;
-      said = Diagnostics();
-      lines = fanuc::emit(shared, options, session_.sources(), said, &letters);
-    }
-    for (Diagnostic& one : said.all())
-      session_.diagnostics().add(std::move(one));
-    return lines;
   }
 
   std::uint32_t numberOf(std::size_t index) const {
@@ -261,6 +257,7 @@ private:
   }
 
   ProgramConversion programs_;
+  std::uint32_t nextCalled_ = 0;       // number of the next program of a called cycle; 0: none is given yet
   std::set<std::string> takenResults_; // of several inputs: that one of them has
   const stdlib::MacroSet none_ = [] {
     stdlib::MacroSet set;
@@ -270,7 +267,8 @@ private:
 };
 
 constexpr TargetFlag kFlags[] = {TargetFlag::Arg,         TargetFlag::ProgramNumber, TargetFlag::ProbeMacros,
-                                 TargetFlag::DefaultsUse, TargetFlag::ProbePower,    TargetFlag::Result};
+                                 TargetFlag::DefaultsUse, TargetFlag::ProbePower,    TargetFlag::Result,
+                                 TargetFlag::Calls};
 
 } // namespace
 

@@ -42,7 +42,8 @@ bool movesAfter(const State& state) {
   return false;
 }
 
-// Makes sure that there is such an offset. false: refused.
+} // namespace
+
 bool guardTool(State& state, const ir::ExpressionPtr& tool, const ir::Origin& origin) {
   if (const double* value = ir::constantValue(tool)) {
     if (*value >= 1 && *value <= state.control.variables.toolCount && *value == std::trunc(*value))
@@ -65,8 +66,6 @@ bool guardTool(State& state, const ir::ExpressionPtr& tool, const ir::Origin& or
     writeToolAlarm(state, tool, origin);
   return true;
 }
-
-} // namespace
 
 void writeToolAlarm(State& state, const ir::ExpressionPtr& tool, const ir::Origin& given) {
   ir::Origin origin;

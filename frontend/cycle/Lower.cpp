@@ -88,20 +88,29 @@ std::optional<Lowered> Lowering::run() {
   warnMixed();
   resolvePlaces();
   if (failed_) return std::nullopt;
+  outline();
   for (auto* list : {&cycle_.checks, &cycle_.body})
     for (ir::CycleStatement& statement : *list)
       statement.origin.place = 0;
   dropUnread();
   ir::fold(cycle_, {});
   const std::map<ir::VariableId, ir::VariableId> names = compact(cycle_);
-  Lowered out{std::move(cycle_), {}};
+  Lowered out{std::move(cycle_), {}, {}, {}};
   for (const auto& [id, letter] : letters_)
     out.letters.emplace(names.at(id), letter);
   return out;
 }
 
-std::optional<Lowered> lower(const File& file, const SourceMap& sources, Diagnostics& diagnostics) {
-  return Lowering(file, sources, diagnostics).run();
+std::optional<Lowered> lower(const File& file, const SourceMap& sources, Diagnostics& diagnostics,
+                             std::uint32_t programLevels) {
+  Programs programs;
+  Lowering lowering(file, sources, diagnostics);
+  lowering.callPrograms(programs, programLevels);
+  std::optional<Lowered> out = lowering.run();
+  if (!out) return std::nullopt;
+  out->programs = std::move(programs.list);
+  out->inPlace = std::move(programs.inPlace);
+  return out;
 }
 
 } // namespace dotek::frontend::cycle

@@ -6,14 +6,35 @@
 #include "ir/Cycle.h"
 #include "support/Diagnostics.h"
 
+#include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
+#include <string>
+#include <vector>
 
 namespace dotek::frontend::cycle {
+
+// A called cycle that is a program of its own. What its caller demands of the machine it does not ask for
+// again, and it ends with the call ir::kResults.
+struct CalledProgram {
+  ir::Cycle cycle;
+  std::map<ir::VariableId, char> letters;
+  std::vector<std::string> results;  // all that it has, in the order of ir::handedBack()
+  std::set<std::string> readResults; // those that some caller reads
+};
+
+// A call that was to be of a program and has its cycle in its place.
+struct CallInPlace {
+  SourceRange range;
+  std::string cycle, why;
+};
 
 struct Lowered {
   ir::Cycle cycle;
   std::map<ir::VariableId, char> letters; // that the source wishes for arguments
+  std::vector<CalledProgram> programs;    // that ir::kProgram calls; one with an empty name is called by none
+  std::vector<CallInPlace> inPlace;
 };
 
 // The cycle with the cycles that it calls written in the place of their calls. Only of a linked tree without
@@ -22,6 +43,9 @@ struct Lowered {
 // Variable::defaultValue; one whose default is computed is optional, and the checks compute it. What the
 // language has beside moves and touches are cycles by the names of ir/CycleNames.h. What the IR has no form
 // for is reported at its place; nullopt then.
-std::optional<Lowered> lower(const File& file, const SourceMap& sources, Diagnostics& diagnostics);
+// `programLevels`: so deep calls of cycles that move the probe are calls of programs (ir::kProgram); what
+// moves nothing is in the place of its call whatever that is.
+std::optional<Lowered> lower(const File& file, const SourceMap& sources, Diagnostics& diagnostics,
+                             std::uint32_t programLevels = 0);
 
 } // namespace dotek::frontend::cycle

@@ -69,6 +69,22 @@ void Lowering::call(const Call& call, SourceRange range) {
   for (const Argument& argument : call.handedOn)
     take(argument);
 
+  const bool apart = isProgram(call);
+  Outline outline;
+  if (apart) {
+    outline.called = called;
+    outline.probeOn = probe_ == Probe::On;
+    outline.range = range;
+    eachName([&](const Parameter&, const Name& name) {
+      const auto argument = values.find(name.text);
+      if (argument != values.end() && handed[name.text] != false)
+        outline.arguments.emplace_back(name.text, argument->second);
+    });
+    leaveResults(known_, range); // an alarm of the called cycle leaves them, too
+    outline.begin = label("call", range);
+    outline.end = label("called", range);
+    place(outline.begin, range);
+  }
   inner.begin = out_->size();
   Scope outer = std::move(scope_);
   scope_ = std::move(inner);
@@ -106,6 +122,14 @@ void Lowering::call(const Call& call, SourceRange range) {
   declareTouches(called->body);
   block(called->body);
   if (--depth_ == 0) site_ = 0;
+  if (apart) {
+    place(outline.end, range);
+    for (const Statement* const one : declared)
+      if (const auto* result = std::get_if<Result>(&one->node))
+        for (const Name& name : result->names)
+          outline.results.emplace_back(name.text, *scope_.names.at(name.text).variable);
+    outlines_.push_back(std::move(outline));
+  }
   inner = std::move(scope_);
   scope_ = std::move(outer);
   for (std::size_t i = 0; i < 3; ++i)

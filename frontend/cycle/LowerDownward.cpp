@@ -114,7 +114,7 @@ bool Lowering::leadsDownward(const Touch& touch, SourceRange range) {
     return true;
   }
   // What the caller gives is asked for before anything moves.
-  const bool first = nested_ == 0 && isOfCaller(way);
+  const bool first = nested_ == 0 && !called_ && isOfCaller(way);
   std::vector<ir::CycleStatement>* const list = out_;
   if (first) out_ = &cycle_.checks;
   check(way, ir::constant(0, range));

@@ -101,7 +101,7 @@ void Lowering::statement(const Statement& s) {
             emit(ir::Stop{false, one.text.text, 1}, range);
           },
           [&](const Alarm& one) {
-            leaveResults(known_, range);
+            if (!called_) leaveResults(known_, range);
             emit(ir::Alarm{one.text.text}, range);
           },
           [&](const Report& one) { report(one, range); }, [&](const Move& one) { move(one, range); },

@@ -48,9 +48,29 @@ inline std::string foundName(const std::string& touch) {
 
 std::optional<ir::Axis> linear(Axis axis); // nothing: a rotary axis
 
+// The called cycles that are programs of their own, of one command.
+struct Programs {
+  struct Key {
+    const File* file = nullptr;
+    bool probeOn = false;     // the caller has switched the probe on
+    std::uint32_t levels = 0; // of programs that it may call itself
+    auto operator<=>(const Key&) const = default;
+  };
+  std::vector<CalledProgram> list;
+  std::map<Key, std::optional<std::size_t>> byKey; // nothing: it cannot be one
+  std::vector<CallInPlace> inPlace;
+};
+
 class Lowering {
 public:
   Lowering(const File& file, const SourceMap& sources, Diagnostics& diagnostics);
+  // Calls become programs, so many levels deep.
+  void callPrograms(Programs& programs, std::uint32_t levels) {
+    programs_ = &programs;
+    levels_ = levels;
+  }
+  // It is one of them itself.
+  void beCalled(bool probeOn);
   std::optional<Lowered> run();
 
 private:
@@ -157,6 +177,25 @@ private:
   // ---- LowerCall.cpp
   void call(const Call& call, SourceRange range);
 
+  // ---- LowerPrograms.cpp
+  struct Outline { // a call that may be one of a program, between two labels of the body
+    ir::LabelId begin = 0, end = 0;
+    SourceRange range;
+    const File* called = nullptr;
+    bool probeOn = false;
+    std::vector<std::pair<std::string, ir::ExpressionPtr>> arguments;
+    std::vector<std::pair<std::string, ir::VariableId>> results;
+  };
+  bool isProgram(const Call& call) const;
+  // Puts calls of programs in the place of what the calls came to.
+  void outline();
+  struct Region; // of the body
+  std::vector<Region> regions() const;
+  std::optional<std::size_t> programOf(const Outline& call, std::string& why);
+  // Variables that the rest reads and only the call assigns, or both: what it does is no program then.
+  void keepEntangled(std::vector<Region>& regions) const;
+  ir::CallCycle callOf(const Region& region, const std::vector<ir::Position>& known);
+
   // ---- LowerPlaces.cpp
   // Where the probe is along the axis, as a value.
   ir::ExpressionPtr here(ir::Axis axis, SourceRange range);
@@ -223,6 +262,10 @@ private:
   std::uint32_t site_ = 0; // the call that the statement is from, from 1; 0: it is the file's own
   std::size_t nested_ = 0; // branches and loops around the statement
   std::size_t depth_ = 0;  // of calls
+  Programs* programs_ = nullptr;
+  std::uint32_t levels_ = 0;
+  bool called_ = false; // it is a program that another one calls
+  std::vector<Outline> outlines_;
   static constexpr std::size_t kMostStatements = 20000, kMostCalls = 50;
 };
 

@@ -13,6 +13,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <tuple>
 
@@ -30,7 +31,7 @@ struct Lowering {
   std::optional<cycle::Lowered> lowered;
 
   // Text of `main`, and of the cycles that it calls by their names.
-  explicit Lowering(const std::string& main, const Texts& others = {}) {
+  explicit Lowering(const std::string& main, const Texts& others = {}, std::uint32_t programLevels = 0) {
     const auto read = [&](const std::string& name, const std::string& text) {
       const FileId id = sources.add(SourceFile(name, text, Encoding::Utf8));
       return cycle::parse(id, sources, Limits(), diagnostics);
@@ -47,8 +48,11 @@ struct Lowering {
     cycle::link(file, find);
     cycle::check(file, sources, diagnostics);
     REQUIRE_MESSAGE(!diagnostics.hasErrors(), renderText(diagnostics, sources, 0));
-    lowered = cycle::lower(file, sources, diagnostics);
+    lowered = cycle::lower(file, sources, diagnostics, programLevels);
     if (!lowered) return;
+    for (const cycle::CalledProgram& program : lowered->programs)
+      for (const ir::Violation& one : ir::verify(program.cycle))
+        FAIL_CHECK(one.message);
     for (const ir::Violation& one : ir::verify(lowered->cycle))
       FAIL_CHECK(one.message);
   }
@@ -484,6 +488,35 @@ TEST_CASE("cycle lowering: what has no form yet is refused where it is written")
   for (int i = 0; i < 20100; ++i)
     many += "spindle off\n";
   CHECK(refusal(many) == "cycle-too-long");
+}
+
+TEST_CASE("cycle lowering: calls that move the probe are calls of programs") {
+  const Texts others = {{"edge", kEdge},
+                        {"twice", "cycle twice \"T\"\nparameter w : length \"W\"\nresult v : length \"V\"\n"
+                                  "v = 2 * w\n"}};
+  const std::string main = "cycle demo \"C\"\nparameter far : length \"F\"\nresult p : length \"P\"\n"
+                           "spindle off\n"
+                           "call edge distance = 10 mm -> a\n"
+                           "call edge distance = far -> b\n"
+                           "call twice w = far -> c\n"
+                           "p = a.position + b.position + c.v\n";
+  const auto count = [](const std::string& text, const std::string& part) {
+    std::size_t out = 0;
+    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+      ++out;
+    return out;
+  };
+  const Lowering inlined(main, others), apart(main, others, 2);
+  REQUIRE(apart.lowered);
+  CHECK(inlined.lowered->programs.empty());
+  CHECK(inlined.body().find("measure") != std::string::npos);
+  // One program for both calls; what moves nothing is in its place.
+  REQUIRE(apart.lowered->programs.size() == 1);
+  CHECK(apart.lowered->programs[0].cycle.name == "edge");
+  CHECK(apart.lowered->programs[0].readResults == std::set<std::string>{"position"});
+  CHECK(apart.body().find("measure") == std::string::npos);
+  CHECK(count(apart.body(), "#8000000") == 2);
+  CHECK(apart.lowered->inPlace.empty());
 }
 
 } // namespace
