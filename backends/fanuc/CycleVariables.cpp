@@ -257,6 +257,33 @@ bool writesWorkOffset(const State& state, const ir::OpaqueBlock& block) {
   return offset && workSystemVariable(state.options.sourceControl) && workSystemVariable(state.control);
 }
 
+const double* valueOf(const ir::OpaqueBlock& block, char address) {
+  for (const ir::Word& word : block.words)
+    if (word.address == address) return word.value == nullptr ? nullptr : ir::constantValue(word.value);
+  return nullptr;
+}
+
+// `G10 L10 P.. R..` writes a tool's length and `L11` its wear, where both have the two in variables; `L20 P1`
+// the first of the systems beyond G59 (haas.md, 5). Radii are none of them: a control may hold diameters.
+bool writesToolOrExtended(const State& state, const ir::OpaqueBlock& block) {
+  const double* const kind = valueOf(block, 'L');
+  if (kind == nullptr) return false;
+  const bool tool = *kind == 10 || *kind == 11;
+  const std::string_view words = tool ? "GLPRN" : "GLPXYZN";
+  if ((!tool && *kind != 20) ||
+      std::any_of(block.words.begin(), block.words.end(), [&](const ir::Word& word) {
+        const double* number = word.value == nullptr ? nullptr : ir::constantValue(word.value);
+        return words.find(word.address) == std::string_view::npos ||
+               (word.address == 'G' && (number == nullptr || *number != 10));
+      }))
+    return false;
+  const stdlib::SystemVariables &from = state.options.sourceControl.variables, &to = state.control.variables;
+  if (tool) return from.toolGeometry && from.toolWear && to.toolGeometry && to.toolWear;
+  const double* const system = valueOf(block, 'P');
+  return from.extendedX && to.extendedX && system != nullptr && *system >= 1 &&
+         *system <= std::min(from.extendedCount, to.extendedCount) && *system == std::floor(*system);
+}
+
 // What the block has beside what both controls are known to read alike: "its `P` is computed", "it has
 // `L20`".
 std::string unlikeWorkOffset(const ir::OpaqueBlock& block) {
@@ -302,7 +329,7 @@ std::string copiedText(State& state, const ir::OpaqueBlock& block, const ir::Ori
   const stdlib::Control& from = state.options.sourceControl;
   const bool same = state.control.name == from.name;
   const bool reads = from.decimal == state.control.decimal && from.increment == state.control.increment;
-  const bool offset = !same && writesWorkOffset(state, block);
+  const bool offset = !same && (writesWorkOffset(state, block) || writesToolOrExtended(state, block));
   std::string text, foreign;
   bool unlisted = false;  // the code that is foreign, by the control of the source
   bool dataInput = false; // it is the code of both, and its words are what may differ

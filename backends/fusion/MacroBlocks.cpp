@@ -88,6 +88,7 @@ bool MacroBlocks::block(const std::vector<const ir::CycleStatement*>& statements
             state_.refuse<diag::FusionOpaque>(origin.range(), state_.options.macros.title);
             return;
           }
+          if (movesNothing(node)) return;
           // T only turns the magazine, and a tool length is along Z.
           const auto isOnly = [&](std::string_view addresses, double code) {
             return std::all_of(node.words.begin(), node.words.end(), [&](const ir::Word& word) {
@@ -169,6 +170,22 @@ const ir::Origin* MacroBlocks::putBack(Text& text) {
   return incremental_;
 }
 
+// Codes that end what the caller has not put in force, say how exactly corners are passed, or wait (G53
+// alone).
+bool MacroBlocks::movesNothing(const ir::OpaqueBlock& block) const {
+  return std::all_of(block.words.begin(), block.words.end(), [&](const ir::Word& word) {
+    if (word.address != 'G') return std::string_view("NPQ").find(word.address) != std::string_view::npos;
+    const double* code = word.value == nullptr ? nullptr : ir::constantValue(word.value);
+    const stdlib::CodeInfo* info =
+        code == nullptr || *code < 0 || *code > 9999
+            ? nullptr
+            : state_.options.control.find('G', static_cast<std::uint32_t>(std::lround(*code * 10)));
+    return info != nullptr &&
+           (info->function == Function::RotationOff || info->function == Function::ScalingOff ||
+            info->function == Function::PathMode || info->function == Function::MachineCoordinates);
+  });
+}
+
 // The block moves the machine, changes the tool or takes its length: what macros rely on stays as it is.
 bool MacroBlocks::leavesModes(const ir::OpaqueBlock& block) {
   for (const ir::Word& word : block.words) {
@@ -191,6 +208,9 @@ bool MacroBlocks::leavesModes(const ir::OpaqueBlock& block) {
     case Function::ToolLengthOff: // our own macros look at it; along Z nothing is known after it
     case Function::ToolChange:
     case Function::Auxiliary:
+    case Function::RotationOff: // the caller has none on, nor a scale
+    case Function::ScalingOff:
+    case Function::PathMode:
     case Function::Rapid:
     case Function::Feed:
     case Function::SpindleOff:

@@ -31,8 +31,9 @@ FoundResult resultIn(const stdlib::MacroSet& macros, const ir::CycleStatement* m
 bool MacroBlocks::overwritesResults(const ir::CycleStatement& statement) const {
   return ir::match(
       statement, [](const ir::Move& node) { return node.motion == ir::Motion::Protected; },
-      [](const ir::OpaqueBlock& node) {
-        return std::any_of(node.words.begin(), node.words.end(),
+      [&](const ir::OpaqueBlock& node) {
+        return !movesNothing(node) &&
+               std::any_of(node.words.begin(), node.words.end(),
                            [](const ir::Word& word) { return word.address != 'N' && word.address != 'T'; });
       },
       [&](const ir::ProbePower& node) {
@@ -148,8 +149,10 @@ FoundResult MacroBlocks::found(ir::ResultName name) const {
   FoundResult out;
   for (const ir::CycleStatement* measured : joined_) {
     const FoundResult one = after(measured, name);
-    if (one.result == nullptr || one.instead) return {};
-    if (out.result != nullptr && out.result->variable != one.result->variable) return {};
+    if (one.result == nullptr) return {};
+    const bool same =
+        out.result == nullptr || (out.result->variable == one.result->variable && out.instead == one.instead);
+    if (!same) return {};
     out = one;
   }
   return out;

@@ -213,6 +213,7 @@ private:
   void store(const ir::Store& store, const ir::Origin& origin, std::vector<Text>& lines);
   void switchProbe(const ir::ProbePower& power, const ir::Origin& origin, std::vector<Text>& lines);
   bool leavesModes(const ir::OpaqueBlock& block);
+  bool movesNothing(const ir::OpaqueBlock& block) const;
   bool otherCode(const ir::CycleStatement& statement, Text& text);
   bool modeCode(const ir::SetMode& mode, const ir::Origin& origin, Text& text);
   bool requireNominal(const ir::Measure& measure, const ir::Origin& origin);
