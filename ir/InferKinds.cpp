@@ -15,7 +15,7 @@ struct Group {
   std::vector<VariableId> variables;
   Kind kind = Kind::Number;
   bool index = false; // chooses a variable of the machine: whole, unless something else is known of it
-  // Of the variables those that stand in a sum with a number which makes none of G54 to G59 of them: pallet +
+  // Of the variables those that are in a sum with a number which makes none of G54 to G59 of them: pallet +
   // 100.
   std::vector<VariableId> shifted;
 };

@@ -1,6 +1,7 @@
 #include "lint/ProgBlocks.h"
 
 #include "frontend/compost/Walk.h"
+#include "support/Ascii.h"
 
 #include <algorithm>
 #include <cctype>
@@ -158,6 +159,10 @@ bool wordsOfText(const ProgPiece& piece, bool& comment, std::vector<ProgWord>& o
       std::size_t end = at + 1;
       while (end < text.size() && isNumberCharacter(text[end]))
         ++end;
+      // A variable by its number is a value like another.
+      if (end == at + 1 && end + 1 < text.size() && text[end] == '#' && isDigit(text[end + 1]))
+        for (++end; end < text.size() && isDigit(text[end]);)
+          ++end;
       if (end < text.size() && (text[end] == '#' || text[end] == '[')) return false;
       out.push_back({static_cast<char>(std::toupper(static_cast<unsigned char>(c))),
                      text.substr(at + 1, end - at - 1), nullptr, place(at, end)});

@@ -76,4 +76,17 @@ bool isOfTools(const Control& control, std::uint32_t variable) {
          within(v.toolWearToo, number, v.toolCount + 1) || within(v.toolGeometryToo, number, v.toolCount + 1);
 }
 
+bool isOfOffsets(const Control& control, std::uint32_t variable) {
+  const SystemVariables& v = control.variables;
+  const auto among = [&](long number) {
+    return isOffset(v.externalX, number, v.axisStep, 0, 1) ||
+           isOffset(v.workOffsetX, number, v.axisStep, v.systemStep, 6) ||
+           isOffset(v.extendedX, number, v.axisStep, v.extendedStep, v.extendedCount);
+  };
+  const auto number = static_cast<long>(variable);
+  const bool before = v.extendedX && number < *v.extendedX; // what P is added to
+  return among(number) || among(number + 1) ||
+         (before && (among(number + v.extendedStep) || among(number + v.extendedStep + 1)));
+}
+
 } // namespace dotek::stdlib

@@ -125,6 +125,16 @@ bool computesPlaces(const ir::Cycle& cycle) {
     });
     return out;
   };
+  // An offset that the program sets moves what comes after it.
+  constexpr double kFirstOfMachine = 1000;
+  const auto sets = [](const ir::CycleStatement& one) {
+    const auto* store = std::get_if<ir::Store>(&one.node);
+    const double* number = store == nullptr ? nullptr : ir::constantValue(store->number);
+    return store != nullptr &&
+           (number != nullptr ? *number >= kFirstOfMachine
+                              : ir::firstNumber(store->number).value_or(0) >= kFirstOfMachine);
+  };
+  if (std::any_of(cycle.body.begin(), cycle.body.end(), sets)) return true;
   for (const ir::CycleStatement& one : cycle.body) {
     bool found = false;
     const bool moves = ir::match(

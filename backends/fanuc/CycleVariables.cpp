@@ -146,8 +146,8 @@ private:
     if (base && stdlib::isOfTools(source, *base)) return ofTools(number, *base, range);
     // Over the offsets of work systems, where they lie as on the source's control: `#[5201+20*#1]`, and
     // `#[5200+20*#1+#2]` with the axis as a number.
-    if (base && *base >= kFirstSystem && sameOffsets() &&
-        (isSettable(state_.control, *base) || isSettable(state_.control, *base + 1)))
+    if (base && *base >= kFirstSystem && sameOffsets() && stdlib::isOfOffsets(state_.control, *base) &&
+        (!isBeyond(*base) || sameBeyond(number)))
       return number;
     refuseComputed(base, range);
     return number;
@@ -179,6 +179,19 @@ private:
         state_.diagnostics.report<diag::VariableNumberOpen>(range, state_.options.sourceControl.title,
                                                             state_.control.title);
     }
+  }
+
+  // Of the systems beyond G59, which a control may have fewer of.
+  bool isBeyond(std::uint32_t base) const {
+    const stdlib::SystemVariables& v = state_.control.variables;
+    return v.extendedX && static_cast<int>(base) + v.extendedStep + 1 >= *v.extendedX;
+  }
+  bool sameBeyond(const ir::ExpressionPtr& number) const {
+    const stdlib::SystemVariables& from = state_.options.sourceControl.variables;
+    const stdlib::SystemVariables& to = state_.control.variables;
+    if (from.extendedX != to.extendedX || from.extendedStep != to.extendedStep) return false;
+    return from.extendedCount <= to.extendedCount ||
+           confinedTo(state_, number, *to.extendedX, *to.extendedX + to.extendedCount * to.extendedStep - 1);
   }
 
   bool sameOffsets() const { return samePlaces(state_.control, state_.options.sourceControl); }

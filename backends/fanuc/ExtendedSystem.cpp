@@ -40,9 +40,9 @@ void translateExtendedSystem(State& state) {
       for (ir::Word& word : block->words) {
         if (isCode(word, *there)) return; // the source has it for something else
         const ir::Word* const which = find(*block, 'P');
-        const double* const number =
-            which == nullptr || which->value == nullptr ? nullptr : ir::constantValue(which->value);
-        if (isCode(word, *here) && number != nullptr && *number >= 1 && *number <= most)
+        if (!isCode(word, *here) || which == nullptr || which->value == nullptr) continue;
+        const double* const number = ir::constantValue(which->value);
+        if (number != nullptr ? *number >= 1 && *number <= most : confinedTo(state, which->value, 1, most))
           found.push_back(&word);
       }
     }

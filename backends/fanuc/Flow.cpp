@@ -5,6 +5,7 @@
 #include "ir/Fold.h"
 #include "ir/Positions.h"
 #include "ir/Walk.h"
+#include "stdlib/VariableNumbers.h"
 #include "support/messages/Fanuc.h"
 
 #include <algorithm>
@@ -164,8 +165,8 @@ private:
     const bool whole = value != nullptr && *value >= 0 && *value < 1e9 &&
                        *value == static_cast<double>(static_cast<std::uint32_t>(*value));
     const auto base = value == nullptr ? ir::firstNumber(number) : std::nullopt;
-    if (base && (state_.control.isCommon(*base) || isSettable(state_.control, *base) ||
-                 isSettable(state_.control, *base + 1))) {
+    if (base && (state_.control.isCommon(*base) || stdlib::isOfOffsets(state_.control, *base) ||
+                 isSettable(state_.control, *base) || isSettable(state_.control, *base + 1))) {
       warnOfReach(*base, origin);
       return machineText(state_, number, origin);
     }

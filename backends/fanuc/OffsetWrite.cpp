@@ -152,6 +152,25 @@ std::optional<NoSystem> passesNoSystem(const State& state, ir::VariableId id, co
 
 } // namespace
 
+bool confinedTo(const State& state, const ir::ExpressionPtr& value, double least, double most) {
+  const std::set<ir::VariableId> given = givenFor(state.cycle, value);
+  if (given.size() != 1) return false;
+  bool passes = false;
+  for (ir::Environment& environment : environments(state))
+    for (const double one :
+         {least - 1, least, least + 0.5, most, most + 1, most + 30, -99999.0, -1.0,  0.0,   0.5,    1.0,
+          2.0,       6.0,   12.0,        20.0, 21.0,     48.0,      49.0,     100.0, 300.0, 99999.0}) {
+      environment[*given.begin()] = ir::Scalar::of(one);
+      if (ir::runChecks(state.cycle, environment, kMaxSteps).end == ir::CheckRun::End::Alarm) continue;
+      const ir::Scalar there = ir::evaluate(*value, withLocals(state.cycle, environment));
+      if (!there.known() || there.value < least || there.value > most ||
+          there.value != std::trunc(there.value))
+        return false;
+      passes = true;
+    }
+  return passes;
+}
+
 ir::ExpressionPtr offsetNumber(const stdlib::Control& control, const ir::ExpressionPtr& system,
                                ir::Axis axis) {
   const stdlib::SystemVariables& variables = control.variables;

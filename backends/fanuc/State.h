@@ -280,6 +280,9 @@ bool knownAtEntry(const State& state, const ir::ExpressionPtr& value);
 ExtendedSystems extendedSystems(const State& state, const stdlib::MacroSignature& signature);
 // Makes sure that there is such a tool offset. false: refused.
 bool guardTool(State& state, const ir::ExpressionPtr& tool, const ir::Origin& origin);
+// Whether the checks of the one argument that `value` counts from let whole values of `least` to `most` pass
+// and, of others that are tried, none.
+bool confinedTo(const State& state, const ir::ExpressionPtr& value, double least, double most);
 // Makes sure that `system` is 54 to 59, or one of `extended`, where nothing else does.
 void guardSystem(State& state, const ir::ExpressionPtr& system, const ir::Origin& origin,
                  const ExtendedSystems& extended = {});

@@ -211,9 +211,14 @@ verify::CompareRules FanucVerification::rulesFor(const TargetCase& now, const ve
   rules.tolerance = from_.plan.computesPlaces ? rules.results : from_.options.tolerance;
   allowForDatums(rules, source, now.entry, control_, macrosHaveText_);
   // Where one control counts in eight digits and the other in fifteen, a computed word may be rounded the
-  // other way.
-  if (from_.plan.computesPlaces && control_.arithmetic != from_.inputs.sourceControl->arithmetic)
-    rules.tolerance = rules.results = std::max(rules.results, kOtherArithmetic);
+  // other way; where both count in eight, other macros may compute it in another order.
+  constexpr double kLastDigits = 5e-5; // mm, of places within 10 m
+  const bool others = control_.arithmetic == stdlib::Arithmetic::Decimal8 && !rules.sameAlarmNumbers;
+  const double rounding = control_.arithmetic != from_.inputs.sourceControl->arithmetic ? kOtherArithmetic
+                          : others                                                      ? kLastDigits
+                                                                                        : 0;
+  if (from_.plan.computesPlaces && rounding > 0)
+    rules.tolerance = rules.results = std::max(rules.results, rounding);
   // Positions that the cycle computes go to the control rounded to its least increment, and contacts on
   // round surfaces follow.
   if (from_.plan.cycleFile) {

@@ -13,19 +13,6 @@
 namespace dotek::frontend::nc {
 namespace {
 
-// An offset of a work system, or the external one.
-bool isOffset(const stdlib::Control& control, std::uint32_t number) {
-  const stdlib::SystemVariables& v = control.variables;
-  constexpr int kAxes = 4, kSystems = 6;
-  const auto among = [&](const std::optional<int>& first, int systems, int step) {
-    for (int system = 0; first && system < systems; ++system)
-      for (int axis = 0; axis < kAxes; ++axis)
-        if (static_cast<int>(number) == *first + system * step + axis * v.axisStep) return true;
-    return false;
-  };
-  return among(v.externalX, 1, 0) || among(v.workOffsetX, kSystems, v.systemStep);
-}
-
 // These messages put the name between backticks themselves.
 std::string bareName(const Hole& hole) {
   std::string out = hole.name;
@@ -314,7 +301,7 @@ ir::ExpressionPtr Lifter::computedNumber(const Expression& number) {
   // axis as a number) or of tools: it reaches no local, which would be another program's.
   const auto first = ir::firstNumber(out);
   const stdlib::Control& control = context_.control;
-  if (first && (control.isCommon(*first) || isOffset(control, *first) || isOffset(control, *first + 1) ||
+  if (first && (control.isCommon(*first) || stdlib::isOfOffsets(control, *first) ||
                 stdlib::isOfTools(control, *first)))
     return out;
   refuse<diag::ComputedVariable>(number.range);

@@ -1,4 +1,5 @@
 // Blocks of words: what is handed to the machine, and codes that call programs.
+#include "ir/Match.h"
 #include "sim/machine/Axes.h"
 #include "sim/machine/Run.h"
 #include "sim/machine/Value.h"
@@ -154,9 +155,13 @@ bool Run::beginContour(const BlockSlots& slots) {
   const auto isPlain = [&](std::uint32_t at) {
     const Instruction& instruction = code_.instructions[at];
     if (instruction.op == Op::Block && code_.blocks[instruction.a].mayCall) return false;
-    const auto& node = code_.statementOf(at).node;
-    return std::holds_alternative<ir::NcBlock>(node) || std::holds_alternative<ir::Label>(node) ||
-           std::holds_alternative<ir::Comment>(node);
+    return ir::match(
+        code_.statementOf(at),
+        [](const ir::OneOf<ir::NcBlock, ir::Label, ir::Comment> auto&) { return true; },
+        [](const ir::OneOf<ir::Jump, ir::Branch, ir::Store, ir::JumpTo, ir::Loop, ir::LoopEnd, ir::Call,
+                           ir::Exit, ir::Raise, ir::Notice, ir::Port, ir::Print, ir::NameVariables> auto&) {
+          return false;
+        });
   };
   const std::uint32_t text = levels_.back().routine->end;
   bool plain = begin <= end;

@@ -155,7 +155,7 @@ def measure(cell):
 
 def matrix(chosen):
     sets = listed("macros", r"\S")
-    controls = listed("controls", r"^(fanuc|haas)")
+    controls = listed("controls", r"^(fanuc|haas)(?!.*\blathe\b)")
     mikroprog = listed("controls", r"^mikroprog")
     rows = impossible_rows()
 

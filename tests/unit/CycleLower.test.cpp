@@ -497,10 +497,10 @@ TEST_CASE("cycle lowering: calls that move the probe are calls of programs") {
                                   "v = 2 * w\n"}};
   const std::string main = "cycle demo \"C\"\nparameter far : length \"F\"\nresult p : length \"P\"\n"
                            "spindle off\n"
-                           "call edge distance = 10 mm -> a\n"
-                           "call edge distance = far -> b\n"
-                           "call twice w = far -> c\n"
-                           "p = a.position + b.position + c.v\n";
+                           "call edge distance = 10 mm -> first_edge\n"
+                           "call edge distance = far -> second_edge\n"
+                           "call twice w = far -> doubled\n"
+                           "p = first_edge.position + second_edge.position + doubled.v\n";
   const Lowering inlined(main, others), apart(main, others, 2);
   REQUIRE(apart.lowered);
   CHECK(inlined.lowered->programs.empty());

@@ -90,12 +90,14 @@ TEST_CASE("fanuc copied: G10 with other words than both controls are known to re
     return Target("inspection-plus", "fanuc-31i-b").emit(cycle.cycle);
   };
   CHECK(toAnother("G10 L2 P2 Z5.", false).codes().empty());
+  CHECK(toAnother("G10 L20 P2 Y5.", false).codes().empty());
+  CHECK(toAnother("G10 L11 P2 R5.", false).codes().empty());
   const Emission computed = toAnother("G10 L2 P2 Y5.", true);
   CHECK(computed.codes() == Codes{"data-input-refused"});
   CHECK(computed.all().find("`P` is computed") != std::string::npos);
   CHECK(computed.all().find("`#[5222+20*[n-54]]=`") != std::string::npos);
   CHECK(toAnother("G10 L2 P0 Y5.", false).all().find("it has `P0`") != std::string::npos);
-  CHECK(toAnother("G10 L20 P2 Y5.", false).all().find("it has `L20`") != std::string::npos);
+  CHECK(toAnother("G10 L20 P60 Y5.", false).all().find("it has `L20`") != std::string::npos);
   CHECK(toAnother("G10 L12 P2 R5.", false).all().find("take the block out") != std::string::npos);
 }
 
