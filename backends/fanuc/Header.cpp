@@ -50,6 +50,11 @@ public:
     call();
     fixed();
     requirements();
+    return end();
+  }
+
+private:
+  Sheet end() {
     alarms();
     for (const std::string& remark : state_.options.remarks)
       say(remark);
@@ -57,20 +62,13 @@ public:
       say(remark);
     return std::move(out_);
   }
-
-private:
   // Who calls it by hand reads what the program before it says of the machine.
   Sheet writeCalled() {
     say(fmt::format("PART OF O{:04}, WHICH CHECKS WHAT THE CALLER PROVIDES", *state_.options.calledFrom));
     table();
     effects();
     fixed();
-    alarms();
-    for (const std::string& remark : state_.options.remarks)
-      say(remark);
-    for (const std::string& remark : state_.remarks)
-      say(remark);
-    return std::move(out_);
+    return end();
   }
   static ir::Origin origin(std::string reason) {
     ir::Origin out;

@@ -15,7 +15,8 @@ TEST_CASE("a branch decides on what stands between it and where its ways meet") 
   CHECK(decided.by(1).empty());
 }
 
-TEST_CASE("a branch that leaves a loop decides on the loop and on itself, one within the loop on its own part") {
+TEST_CASE(
+    "a branch that leaves a loop decides on the loop and on itself, one within the loop on its own part") {
   // 0: A   1: IF .. GOTO 5   2: IF .. GOTO 4   3: B   4: GOTO 1   5: C
   const Places next = {{1}, {2, 5}, {3, 4}, {4}, {1}, {6}};
   const dotek::ir::Decided decided(next);
