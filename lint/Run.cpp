@@ -29,7 +29,7 @@ void moveInto(Diagnostics& to, Diagnostics& from) {
       if (fix) kept.fix = std::move(fix);
       continue;
     }
-    // It stands for a finding that was one too many.
+    // The note that there are more findings counts against the code that it names.
     const auto of = std::find_if(all.begin(), all.end(), [&](const Diagnostic& other) {
       return other.range.file == one.range.file && from.full(other.code, other.range.file) &&
              one.message.find(fmt::format("`{}`", other.code)) != std::string::npos;

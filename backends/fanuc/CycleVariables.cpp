@@ -225,29 +225,15 @@ bool isSystem(double number) {
   return number >= 1 && number <= 6 && number == std::floor(number);
 }
 
-// What locals that the checks alone assign, and once, have where `input` has this value.
-ir::Environment follows(const ir::Cycle& cycle, ir::VariableId input, double value) {
-  std::map<ir::VariableId, int> assigned;
-  for (const auto* list : {&cycle.checks, &cycle.body})
-    for (const ir::CycleStatement& statement : *list)
-      if (const auto* assign = std::get_if<ir::Assign>(&statement.node)) ++assigned[assign->variable];
-  ir::Environment out(cycle.variables.size());
-  if (!assigned.contains(input)) out[input] = ir::Scalar::of(value);
-  for (const ir::CycleStatement& statement : cycle.checks) {
-    const auto* assign = std::get_if<ir::Assign>(&statement.node);
-    if (assign != nullptr && assigned[assign->variable] == 1 && assign->variable != input)
-      out[assign->variable] = ir::evaluate(*assign->value, out);
-  }
-  return out;
-}
-
 // Each value of the list of one field, which the program's checks confine it to, makes it 1 to 6.
 bool isSystemByList(const State& state, const ir::Expression& number) {
   return std::any_of(state.options.choices.begin(), state.options.choices.end(), [&](const auto& list) {
     const ir::VariableId input = list.first; // a binding cannot be captured by clang 14
     const std::vector<Choice>& choices = list.second;
     return !choices.empty() && std::all_of(choices.begin(), choices.end(), [&](const Choice& choice) {
-      const ir::Scalar there = ir::evaluate(number, follows(state.cycle, input, choice.value));
+      ir::Environment environment(state.cycle.variables.size());
+      environment[input] = ir::Scalar::of(choice.value);
+      const ir::Scalar there = ir::evaluate(number, withLocals(state.cycle, std::move(environment)));
       return there.known() && isSystem(there.value);
     });
   });

@@ -17,6 +17,13 @@
 
 namespace dotek::backends::fanuc {
 
+bool isAtPosition(State& state, const ir::CallCycle& cycle, ir::Axis axis) {
+  return workPosition(state, axis) == nullptr &&
+         std::none_of(cycle.arguments.begin(), cycle.arguments.end(), [&](const ir::CycleArgument& one) {
+           return one.frame && one.parameter.back() == "xyz"[ir::indexOf(axis)];
+         });
+}
+
 namespace {
 
 struct CallWord {
@@ -211,18 +218,12 @@ public:
   ir::ExpressionPtr at(const ir::CallCycle& cycle, ir::Axis axis) {
     ir::ExpressionPtr& known = known_[ir::indexOf(axis)];
     if (known == nullptr)
-      known = isAtPosition(cycle, axis) ? awayFrom(read(axis), cycle, axis)
-                                        : expectedAt(state_, cycle, axis, origin_);
+      known = isAtPosition(state_, cycle, axis) ? awayFrom(read(axis), cycle, axis)
+                                                : expectedAt(state_, cycle, axis, origin_);
     return known;
   }
 
 private:
-  bool isAtPosition(const ir::CallCycle& cycle, ir::Axis axis) const {
-    return workPosition(state_, axis) == nullptr &&
-           std::none_of(cycle.arguments.begin(), cycle.arguments.end(), [&](const auto& one) {
-             return one.frame && one.parameter.back() == "xyz"[ir::indexOf(axis)];
-           });
-  }
   ir::ExpressionPtr read(ir::Axis axis) {
     const ir::ExpressionPtr now = positionNow(state_, axis, origin_);
     const std::uint32_t local = now == nullptr ? 0 : state_.helper();

@@ -16,12 +16,26 @@
 
 namespace dotek::backends::fanuc {
 
+ir::Environment withLocals(const ir::Cycle& cycle, ir::Environment environment) {
+  std::map<ir::VariableId, int> assigned;
+  for (const auto* list : {&cycle.checks, &cycle.body})
+    for (const ir::CycleStatement& statement : *list)
+      if (const auto* assign = std::get_if<ir::Assign>(&statement.node)) ++assigned[assign->variable];
+  for (const ir::CycleStatement& statement : cycle.checks) {
+    const auto* assign = std::get_if<ir::Assign>(&statement.node);
+    if (assign != nullptr && assigned[assign->variable] == 1)
+      environment[assign->variable] = ir::evaluate(*assign->value, environment);
+  }
+  return environment;
+}
+
 namespace {
 
 constexpr std::string_view kSourceSet = "take the macro set of the source";
 
 constexpr double kFirstSystem = 54, kLastSystem = 59;
 constexpr std::uint32_t kMaxSteps = 10000;
+constexpr int kMostTried = 400; // numbers of an argument
 
 ir::ExpressionPtr plus(const ir::ExpressionPtr& a, const ir::ExpressionPtr& b) {
   return ir::binary(ir::BinaryOp::Add, a, b);
@@ -86,20 +100,6 @@ bool checksConfine(const State& state, ir::VariableId id) {
   return tried;
 }
 
-// What locals that the checks alone assign, and once, have beside these.
-ir::Environment withLocals(const ir::Cycle& cycle, ir::Environment environment) {
-  std::map<ir::VariableId, int> assigned;
-  for (const auto* list : {&cycle.checks, &cycle.body})
-    for (const ir::CycleStatement& statement : *list)
-      if (const auto* assign = std::get_if<ir::Assign>(&statement.node)) ++assigned[assign->variable];
-  for (const ir::CycleStatement& statement : cycle.checks) {
-    const auto* assign = std::get_if<ir::Assign>(&statement.node);
-    if (assign != nullptr && assigned[assign->variable] == 1)
-      environment[assign->variable] = ir::evaluate(*assign->value, environment);
-  }
-  return environment;
-}
-
 // The variables that a caller gives, from which the checks compute `value`.
 std::set<ir::VariableId> givenFor(const ir::Cycle& cycle, const ir::ExpressionPtr& value) {
   std::set<ir::VariableId> out, seen;
@@ -129,7 +129,6 @@ struct NoSystem {
 // are those that the checks of `id` reject, whatever the other arguments are.
 std::optional<NoSystem> passesNoSystem(const State& state, ir::VariableId id, const NamedSystem& system) {
   constexpr double kNone = 99999;
-  constexpr int kMostTried = 400;
   for (ir::Environment& environment : environments(state)) {
     const auto alarm = [&](double value) {
       environment[id] = ir::Scalar::of(value);
@@ -155,11 +154,12 @@ std::optional<NoSystem> passesNoSystem(const State& state, ir::VariableId id, co
 bool confinedTo(const State& state, const ir::ExpressionPtr& value, double least, double most) {
   const std::set<ir::VariableId> given = givenFor(state.cycle, value);
   if (given.size() != 1) return false;
+  std::vector<double> tried = {-99999, 0.5, least + 0.5, 99999};
+  for (int one = -1; one <= kMostTried; ++one)
+    tried.push_back(one);
   bool passes = false;
   for (ir::Environment& environment : environments(state))
-    for (const double one :
-         {least - 1, least, least + 0.5, most, most + 1, most + 30, -99999.0, -1.0,  0.0,   0.5,    1.0,
-          2.0,       6.0,   12.0,        20.0, 21.0,     48.0,      49.0,     100.0, 300.0, 99999.0}) {
+    for (const double one : tried) {
       environment[*given.begin()] = ir::Scalar::of(one);
       if (ir::runChecks(state.cycle, environment, kMaxSteps).end == ir::CheckRun::End::Alarm) continue;
       const ir::Scalar there = ir::evaluate(*value, withLocals(state.cycle, environment));

@@ -170,16 +170,11 @@ ir::ExpressionPtr expectedOf(State& state, const ir::CycleStatement& measured, s
   return axis ? awayFrom(workPosition(state, *axis), *cycle, *axis) : nullptr;
 }
 
-// Whether it expects along the axis what its position at the call says, and that is not known while the
-// program is written. Then the program reads it before the call.
 bool expectsAtPosition(State& state, const ir::CycleStatement& measured, ir::Axis axis) {
-  if (workPosition(state, axis) != nullptr) return false;
-  if (const auto* measure = std::get_if<ir::Measure>(&measured.node)) return !measure->target;
+  if (const auto* measure = std::get_if<ir::Measure>(&measured.node))
+    return !measure->target && workPosition(state, axis) == nullptr;
   const auto* cycle = std::get_if<ir::CallCycle>(&measured.node);
-  return cycle != nullptr &&
-         std::none_of(cycle->arguments.begin(), cycle->arguments.end(), [&](const ir::CycleArgument& one) {
-           return one.frame && one.parameter.back() == "xyz"[ir::indexOf(axis)];
-         });
+  return cycle != nullptr && isAtPosition(state, *cycle, axis);
 }
 
 // Each of the measurements keeps the result in one local, where they leave it in several variables.

@@ -3,6 +3,7 @@
 
 #include "backends/fanuc/Emit.h"
 #include "backends/fanuc/Sheet.h"
+#include "ir/Evaluate.h"
 #include "ir/Positions.h"
 
 #include <set>
@@ -280,6 +281,8 @@ bool knownAtEntry(const State& state, const ir::ExpressionPtr& value);
 ExtendedSystems extendedSystems(const State& state, const stdlib::MacroSignature& signature);
 // Makes sure that there is such a tool offset. false: refused.
 bool guardTool(State& state, const ir::ExpressionPtr& tool, const ir::Origin& origin);
+// `environment` with what locals have that the checks alone assign, and once.
+ir::Environment withLocals(const ir::Cycle& cycle, ir::Environment environment);
 // Whether the checks of the one argument that `value` counts from let whole values of `least` to `most` pass
 // and, of others that are tried, none.
 bool confinedTo(const State& state, const ir::ExpressionPtr& value, double least, double most);
@@ -294,6 +297,9 @@ bool callsMacro(const State& state, const ir::CycleStatement& statement);
 
 // Reserves locals for results that a later call of a macro would overwrite before they are used.
 void planResults(State& state, Body& body);
+// The call expects along the axis what the position says at which it is made, and that is known on the
+// control alone.
+bool isAtPosition(State& state, const ir::CallCycle& cycle, ir::Axis axis);
 // Before the call of the measurement that is being written: reads the place from which an error counts, where
 // it is known on the control alone.
 void keepPositions(State& state, const ir::Origin& origin);
