@@ -172,4 +172,24 @@ std::vector<bool> reachable(const std::vector<ProgramStatement>& list, const Pro
   return reachableIn(list, flow);
 }
 
+std::vector<bool> leadingTo(std::vector<bool> goals, const ProgramFlow& flow) {
+  std::vector<std::vector<std::size_t>> before(goals.size());
+  for (std::size_t i = 0; i < flow.next.size(); ++i)
+    for (const std::size_t to : flow.next[i])
+      if (to < before.size()) before[to].push_back(i);
+  std::vector<std::size_t> open;
+  for (std::size_t i = 0; i < goals.size(); ++i)
+    if (goals[i]) open.push_back(i);
+  while (!open.empty()) {
+    const std::size_t at = open.back();
+    open.pop_back();
+    for (const std::size_t from : before[at]) {
+      if (goals[from]) continue;
+      goals[from] = true;
+      open.push_back(from);
+    }
+  }
+  return goals;
+}
+
 } // namespace dotek::ir

@@ -66,5 +66,8 @@ std::vector<bool> reachable(const std::vector<CycleStatement>& list);
 std::vector<bool> reachable(const std::vector<ProgramStatement>& list);
 // `flow` is that of the list.
 std::vector<bool> reachable(const std::vector<ProgramStatement>& list, const ProgramFlow& flow);
+// From which places a run may come to one of `goals`, these included; both have the end as their last place.
+// Computed jumps are taken to lead nowhere.
+std::vector<bool> leadingTo(std::vector<bool> goals, const ProgramFlow& flow);
 
 } // namespace dotek::ir

@@ -136,6 +136,7 @@ bool CaseRunner::prepare() {
   std::vector<const stdlib::MacroSet*> sets;
   if (sourceSet_ != nullptr) sets.push_back(sourceSet_);
   sourceStand_.emplace(*inputs_->sourceControl, sets, session_.limits());
+  sourceStand_->passOverAbsent();
   if (!plan_.translation) return true;
   target_ = findTarget(options_.to)->verify({options_, plan_, session_, *inputs_, *folder_, compilation_});
   if (target_->needsNominal()) nominal_ = std::make_unique<NominalFields>(plan_.fields);

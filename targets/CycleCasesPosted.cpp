@@ -133,6 +133,7 @@ void CaseRunner::findMacros(const ir::Program& program) {
   sourceSet_ = only;
   sourceStand_.emplace(*inputs_->sourceControl, std::vector<const stdlib::MacroSet*>{only},
                        session_.limits());
+  sourceStand_->passOverAbsent();
 }
 
 bool CaseRunner::isGiven(const char* host) const {

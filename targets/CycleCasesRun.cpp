@@ -227,6 +227,9 @@ CaseResult CaseRunner::runOne(const verify::Case& drawn) {
   for (const verify::Measure& measure : source->measures)
     if (!measure.unstated.empty())
       result.unstated.emplace_back(sourceOf(measure.range, *values), measure.unstated);
+  for (const verify::Deed& deed : source->deeds)
+    if (deed.kind == verify::Deed::Kind::Subprogram)
+      result.absent.emplace_back(sourceOf(deed.range, *values), static_cast<std::uint32_t>(deed.value));
   const bool ofValues = !drawn.edge && !values->rejected && !result.why.empty() && !result.unarmed &&
                         (source->ending == verify::Ending::Alarm || !source->measures.empty());
   if (source->ending == verify::Ending::Inconclusive) {
@@ -235,7 +238,9 @@ CaseResult CaseRunner::runOne(const verify::Case& drawn) {
     return result;
   }
   if (target_ != nullptr) {
-    TargetRun ran = runTarget(*values, world, probeOn, values->rejected ? nullptr : &*source);
+    // Where another case will be drawn in its place, the first one asks for all of them.
+    const bool asks = !ofValues || others_ == 0;
+    TargetRun ran = runTarget(*values, world, probeOn, values->rejected ? nullptr : &*source, nullptr, asks);
     noteStopped(ran, drawn);
     if (stopped_) return result;
     if (ran.refused && !values->rejected) {

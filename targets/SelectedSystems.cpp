@@ -12,6 +12,22 @@ bool mayMove(const ir::Call& call, const std::set<std::uint32_t>& switches) {
          !switches.contains(static_cast<std::uint32_t>(*program));
 }
 
+// A code whose axis words are no move in the active work system.
+bool movesElsewhere(const stdlib::CodeInfo& code) {
+  using stdlib::Function;
+  switch (code.function) {
+  case Function::DataInput:
+  case Function::ReferenceReturn:
+  case Function::SecondReferenceReturn:
+  case Function::MachineCoordinates:
+  case Function::Dwell: // G4 X0.5
+  case Function::LocalShift:
+  case Function::RotationOn:
+  case Function::ScalingOn: return true;
+  default: return false;
+  }
+}
+
 // The additional work system that a posted program selects before it moves in one, G54.1 Pn. 0: none.
 std::uint32_t extendedIn(const ir::Program& program, const stdlib::Control& control,
                          const std::set<std::uint32_t>& switches) {
@@ -21,7 +37,7 @@ std::uint32_t extendedIn(const ir::Program& program, const stdlib::Control& cont
       return 0;
     const auto* block = std::get_if<ir::NcBlock>(&statement.node);
     if (block == nullptr) continue;
-    bool selects = false, axes = false;
+    bool selects = false, axes = false, elsewhere = false;
     std::uint32_t number = 0;
     for (const ir::Word& word : block->words) {
       axes = axes || (word.address >= 'X' && word.address <= 'Z');
@@ -29,11 +45,12 @@ std::uint32_t extendedIn(const ir::Program& program, const stdlib::Control& cont
       if (value == nullptr || *value < 0 || *value > 9999) continue;
       const auto tenths = static_cast<std::uint32_t>(std::lround(*value * 10));
       const stdlib::CodeInfo* info = word.address == 'G' ? control.find('G', tenths) : nullptr;
+      elsewhere = elsewhere || (info != nullptr && movesElsewhere(*info));
       selects = selects || (info != nullptr && info->function == stdlib::Function::ExtendedWorkSystem);
       if (word.address == 'P') number = tenths / 10;
     }
     if (selects) return number;
-    if (axes) return 0;
+    if (axes && !elsewhere) return 0;
   }
   return 0;
 }
@@ -58,8 +75,7 @@ Selected selectedIn(const ir::Program& program, const stdlib::Control& control,
       const auto tenths = static_cast<std::uint32_t>(std::lround(*code * 10));
       const stdlib::CodeInfo* info = control.find('G', tenths);
       const Function function = info == nullptr ? Function::Other : info->function;
-      elsewhere = elsewhere || function == Function::DataInput || function == Function::ReferenceReturn ||
-                  function == Function::SecondReferenceReturn || function == Function::MachineCoordinates;
+      elsewhere = elsewhere || (info != nullptr && movesElsewhere(*info));
       length = length || function == Function::ToolLengthPlus;
       if (function == Function::WorkSystem && !moved) out.system = tenths / 10;
     }

@@ -93,6 +93,8 @@ struct CaseResult {
   bool ofValues = false;
   // Calls that both sides make alike and whose work no source states, with what it does not state.
   std::vector<std::pair<SourceRange, std::string>> unstated = {};
+  // Subprograms that it calls and that are not at hand.
+  std::vector<std::pair<SourceRange, std::uint32_t>> absent = {};
   // Of the source, in which its runs have ended since the last result: what the translation does there is
   // known.
   std::vector<SourceRange> alarms = {};

@@ -150,6 +150,8 @@ void VerifyReport::add(std::uint64_t number, bool edge, verify::Case drawn, Case
   if (edge) return;
   for (auto& [at, what] : result.unstated)
     unstated_.emplace(std::pair(at.file, at.begin), std::pair(at, std::move(what)));
+  for (const auto& [at, program] : result.absent)
+    absent_.try_emplace({at.file, at.begin}, at, program);
   if (result.unprotected) {
     const auto [at, added] =
         unprotected_.emplace(std::pair(result.unprotected->file, result.unprotected->begin),
@@ -442,6 +444,8 @@ void VerifyReport::tellReplaced() {
 void VerifyReport::tellUnstated() {
   for (const auto& [place, one] : unstated_)
     told_.report<diag::VerifyUnstated>(one.first, one.second);
+  for (const auto& [place, one] : absent_)
+    told_.report<diag::VerifySubprogramAbsent>(one.first, one.second);
 }
 
 void VerifyReport::tellAlarms() {

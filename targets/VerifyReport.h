@@ -92,6 +92,7 @@ private:
   using Reason = std::tuple<bool, FileId, std::uint32_t, std::string>; // edges apart
   std::map<Reason, Idle> idle_, replaced_;
   std::map<std::pair<FileId, std::uint32_t>, std::pair<SourceRange, std::string>> unstated_; // by place
+  std::map<std::pair<FileId, std::uint32_t>, std::pair<SourceRange, std::uint32_t>> absent_; // by place
   std::map<std::pair<FileId, std::uint32_t>, std::pair<SourceRange, bool>> unprotected_;
   std::optional<SourceRange> unarmed_;
   std::map<std::pair<FileId, std::uint32_t>, SourceRange> printed_; // alarms of the source, by place

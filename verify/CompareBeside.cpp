@@ -47,6 +47,7 @@ std::string_view faultName(sim::Outcome outcome) {
 
 std::string deedText(const Deed& deed) {
   switch (deed.kind) {
+  case Deed::Kind::Subprogram: return fmt::format("M98 P{}", numberText(deed.value));
   case Deed::Kind::ToolChange: return fmt::format("a change to tool {}", numberText(deed.value));
   case Deed::Kind::Auxiliary: return "M" + numberText(deed.value);
   case Deed::Kind::Stop: return deed.text.empty() ? "a stop" : fmt::format("a stop ({})", deed.text);

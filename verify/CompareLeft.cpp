@@ -42,6 +42,7 @@ public:
   }
   std::vector<Difference> modalGroups() {
     modes();
+    turn();
     return std::move(out_);
   }
 
@@ -276,6 +277,25 @@ private:
                       {}});
       return;
     }
+  }
+
+  // Coordinates that the source leaves turned: a program does not put them back, and it turns them alike.
+  void turn() {
+    const std::array<double, 4>&one = source_.turn, &other = target_.turn;
+    bool same = std::abs(one[0] - other[0]) <= std::max(rules_.results, rules_.angles);
+    // The zero lies the farther away from the centre, the more the angle moves it.
+    const double equal = rules_.results + rules_.angles / 57 * std::hypot(one[1], one[2], one[3]);
+    for (std::size_t i = 1; i < one.size(); ++i)
+      same = same && std::abs(one[i] - other[i]) <= equal;
+    if (same) return;
+    const auto text = [](const std::array<double, 4>& turned) {
+      return turned == std::array<double, 4>{}
+                 ? std::string("not turned")
+                 : fmt::format("turned by {} degrees, with the zero at X{} Y{} Z{}",
+                               fixedText(turned[0], kShown), fixedText(turned[1], kShown),
+                               fixedText(turned[2], kShown), fixedText(turned[3], kShown));
+    };
+    addFirst(out_, {Aspect::Modal, fmt::format("coordinates {} against {}", text(one), text(other)), {}, {}});
   }
 
   // The code of the target's control that means what this one of the source's does; nullptr: it has none.

@@ -120,6 +120,7 @@ struct Mark {
 // What a program does between its moves, outside of calls that count as one thing.
 struct Deed {
   enum class Kind : std::uint8_t {
+    Subprogram, // M98 of a program that is not at hand: `value` is its number
     ToolChange, // M6: `value` is the tool that T has named
     Auxiliary,  // M `value`: the spindle is oriented (M19), an optional stop
     Stop,       // the operator reads `text`; `value`: n of #3006=n, 0 where there is none
@@ -213,6 +214,9 @@ struct Record {
   std::optional<std::pair<std::size_t, std::size_t>> disturbed;
   // Modal codes by group, times ten, at entry and at the end.
   std::array<std::uint32_t, 32> modalBefore{}, modalAfter{};
+  // What G68 leaves: degrees, and where it takes the zero of the active system, in its coordinates; all 0:
+  // none.
+  std::array<double, 4> turn{};
   double feedBefore = 0, feedAfter = 0; // F in force
   // At the end the motion code, or F, is what a macro of the vendor has left.
   bool motionOfMacro = false, feedOfMacro = false;

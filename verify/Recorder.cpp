@@ -515,6 +515,10 @@ Record Recorder::finish(const std::set<std::uint32_t>& stores) {
   if (machine_.tool() != tool_) record_.tool = machine_.tool();
   for (std::uint32_t group = 0; group < record_.modalAfter.size(); ++group)
     record_.modalAfter[group] = machine_.modalCode(group);
+  if (const sim::Rotation& turn = machine_.rotation(); turn.on()) {
+    const sim::Position zero = turn.turned({});
+    record_.turn = {turn.degrees(), zero[0], zero[1], zero[2]};
+  }
   record_.feedAfter = machine_.feed();
   record_.motionOfMacro = !machine_.knowsMotion();
   record_.feedOfMacro = !machine_.knowsFeed();

@@ -42,6 +42,7 @@ public:
   }
   void messaged(double number, std::string_view text) override { note(Deed::Kind::Stop, number, text); }
   void toolChanged(std::uint32_t number) override { note(Deed::Kind::ToolChange, number); }
+  void absentCalled(std::uint32_t program) override { note(Deed::Kind::Subprogram, program); }
   void auxiliary(std::uint32_t code) override { note(Deed::Kind::Auxiliary, code); }
   void dwelled(double seconds) override { note(Deed::Kind::Dwell, seconds); }
   void recorded(std::string_view file, std::optional<double> value) override {

@@ -123,6 +123,7 @@ Record Stand::run(const sim::Bytecode& code, sim::World& world, const Entry& ent
   world.setOn(entry.probeOn);
   sim::Run run(machine, code, limits_, meaning);
   run.expectMotion();
+  if (passesOverAbsent_) run.passOverAbsent();
   if (!stores.empty()) run.watchWrites(stores);
   Recorder recorder(machine, world, sets_, length);
   recorder.assumeProbe(entry.probeOn ? Switch::On : Switch::Off);

@@ -69,6 +69,8 @@ public:
              const Interference& interference = {}) const;
   // Of the code that is to run: Recorder::watchOnly.
   void watchOnly(sim::BlockSet blocks) { watching_ = std::move(blocks); }
+  // Subprograms that are not at hand do nothing: what is compared is where and with what they are called.
+  void passOverAbsent() { passesOverAbsent_ = true; }
   // Common variables that Record::strays reports.
   void watchStores(std::set<std::uint32_t> numbers) { watchedStores_ = std::move(numbers); }
   // Takes the trace of the runs to come (sim/machine/Trace.h), without the state before the program. nullptr:
@@ -82,6 +84,7 @@ private:
   const Limits& limits_;
   sim::Trace* trace_ = nullptr;
   sim::BlockSet watching_;
+  bool passesOverAbsent_ = false;
   std::set<std::uint32_t> watchedStores_;
   const sim::Machine fresh_;
   // Of the last run: what is assigned for the next keeps its memory. So a stand is used by one thread.

@@ -1,6 +1,7 @@
 // What copied blocks leave in force: saved by Modes.cpp where a bare code puts it back, refused otherwise.
 #include "backends/fanuc/State.h"
 #include "ir/Flow.h"
+#include "ir/Walk.h"
 #include "support/messages/Fanuc.h"
 
 #include <algorithm>
@@ -97,7 +98,7 @@ public:
     for (const auto& [key, causes] : before.back())
       if (key != kAnything && !(key == extendedKey() && isExtendedPutBack()))
         for (const Cause& cause : causes)
-          if (!isGroup(key, Function::ToolLengthOff) || !endsOwnTool(cause)) refuse(key, cause);
+          if (!isResult(key, cause)) refuse(key, cause);
     for (std::size_t i = 0; i < list.size(); ++i)
       out_.inForce.push_back(before[i].empty() ? "" : before[i].begin()->second.begin()->text);
     if (!lost_.empty()) state_.remarks.push_back("CHANGES THAT ARE NOT PUT BACK:" + lost_);
@@ -129,6 +130,46 @@ private:
                                  [&](const ir::CycleStatement& statement) { return changesTool(statement); });
     if (own) lost_ += " " + cause.text;
     return own;
+  }
+  // What the cycle is there to leave; the header says so.
+  bool isResult(const Key& key, const Cause& cause) {
+    if (isGroup(key, Function::ToolLengthOff)) return endsOwnTool(cause);
+    return isGroup(key, Function::RotationOff) && turnsAsMeasured(cause);
+  }
+
+  // Turned coordinates by an angle that the program reads from variables, after its last move: what comes
+  // next is machined along the part. A written angle, or one that is typed, is none of a measurement.
+  bool turnsAsMeasured(const Cause& cause) {
+    const auto& list = state_.cycle.body;
+    const auto* block = std::get_if<ir::OpaqueBlock>(&list[cause.at].node);
+    const bool measured =
+        block != nullptr && std::any_of(block->words.begin(), block->words.end(), [](const ir::Word& word) {
+          return word.address == 'R' && word.value != nullptr && readsVariable(word.value);
+        });
+    if (!measured) return false;
+    const ir::ProgramFlow flow = ir::flowOf(list);
+    std::vector<bool> moves(list.size() + 1);
+    std::transform(list.begin(), list.end(), moves.begin(), movesProbe);
+    const std::vector<bool> later = ir::leadingTo(moves, flow);
+    const ir::Next& next = flow.next[cause.at];
+    const bool last = std::none_of(next.begin(), next.end(), [&](std::size_t to) { return later[to]; });
+    if (!last) return false;
+    lost_ += " " + cause.text;
+    out_.staysTurned = true;
+    return true;
+  }
+  static bool readsVariable(const ir::ExpressionPtr& value) {
+    bool out = false;
+    ir::eachNode(value, [&](const ir::Expression& node) {
+      out = out || std::holds_alternative<ir::MachineVariable>(node.node) ||
+            std::holds_alternative<ir::MeasuredResult>(node.node);
+    });
+    return out;
+  }
+  static bool movesProbe(const ir::CycleStatement& statement) {
+    const auto* call = std::get_if<ir::CallCycle>(&statement.node);
+    return std::holds_alternative<ir::Move>(statement.node) ||
+           std::holds_alternative<ir::Measure>(statement.node) || (call != nullptr && call->moves);
   }
   bool changesTool(const ir::CycleStatement& statement) const {
     const auto* block = std::get_if<ir::OpaqueBlock>(&statement.node);

@@ -45,7 +45,8 @@ std::vector<SavedMode> planModes(State& state) {
   codes.insert(codes.end(), state.copied.groups.begin(), state.copied.groups.end());
   for (const auto* code : codes) {
     if (code == nullptr) continue; // no such group
-    if (code->group && state.control.variables.modalFirst)
+    const bool plane = code->function == Function::PlaneXY;
+    if (code->group && state.control.variables.modalFirst && !(plane && state.copied.staysTurned))
       take(code);
     else
       lost += " " + codeText(*code);

@@ -66,6 +66,7 @@ struct Body {
 struct CopiedModes {
   bool workSystem = false;                     // one of G54 to G59 may be another one
   std::vector<const stdlib::CodeInfo*> groups; // a member of each further group that a bare code puts back
+  bool staysTurned = false;                    // G68 stays in force: another plane under it is not allowed
   // Before each statement of the body, a code that a copied block may have left in force, beside what a bare
   // code puts back: "G68"; "" for none. Empty where nothing is copied.
   std::vector<std::string> inForce;

@@ -49,7 +49,9 @@ FanucVerification::FanucVerification(const VerificationSource& source)
       stand_(control_,
              set_ == nullptr ? std::vector<const stdlib::MacroSet*>{}
                              : std::vector<const stdlib::MacroSet*>{set_},
-             limits_) {}
+             limits_) {
+  stand_.passOverAbsent();
+}
 
 bool FanucVerification::prepare() {
   Session& session = from_.session;

@@ -3,6 +3,7 @@
 #include "backends/common/MacroCall.h"
 #include "backends/fusion/State.h"
 #include "ir/Evaluate.h"
+#include "ir/Flow.h"
 #include "ir/Fold.h"
 #include "ir/Linear.h"
 #include "ir/Walk.h"
@@ -84,7 +85,7 @@ bool MacroBlocks::block(const std::vector<const ir::CycleStatement*>& statements
         *one,
         [&](const ir::OpaqueBlock& node) {
           opaque_ = &origin;
-          if (!leavesModes(node)) {
+          if (!leavesModes(node) && !endsBranch(*one, node)) {
             state_.refuse<diag::FusionOpaque>(origin.range(), state_.options.macros.title);
             return;
           }
@@ -175,26 +176,49 @@ const ir::Origin* MacroBlocks::putBack(Text& text) {
 bool MacroBlocks::movesNothing(const ir::OpaqueBlock& block) const {
   return std::all_of(block.words.begin(), block.words.end(), [&](const ir::Word& word) {
     if (word.address != 'G') return std::string_view("NPQ").find(word.address) != std::string_view::npos;
-    const double* code = word.value == nullptr ? nullptr : ir::constantValue(word.value);
-    const stdlib::CodeInfo* info =
-        code == nullptr || *code < 0 || *code > 9999
-            ? nullptr
-            : state_.options.control.find('G', static_cast<std::uint32_t>(std::lround(*code * 10)));
+    const stdlib::CodeInfo* info = codeOf(word);
     return info != nullptr &&
            (info->function == Function::RotationOff || info->function == Function::ScalingOff ||
             info->function == Function::PathMode || info->function == Function::MachineCoordinates);
   });
 }
 
+const stdlib::CodeInfo* MacroBlocks::codeOf(const ir::Word& word) const {
+  const double* code = word.value == nullptr ? nullptr : ir::constantValue(word.value);
+  if (code == nullptr || *code < 0 || *code > 9999) return nullptr;
+  return state_.options.control.find(word.address, static_cast<std::uint32_t>(std::lround(*code * 10)));
+}
+
+// Nothing moves and no macro runs after the block: what it leaves is for the operations after this one, as
+// the source has it. A subprogram may read what the source's macros leave.
+bool MacroBlocks::endsBranch(const ir::CycleStatement& statement, const ir::OpaqueBlock& block) const {
+  for (const ir::Word& word : block.words) {
+    const stdlib::CodeInfo* info = word.address == 'G' || word.address == 'M' ? codeOf(word) : nullptr;
+    if (word.address == 'G' && info == nullptr) return false;
+    constexpr Function kOthers[] = {Function::SubprogramCall, Function::MacroCall, Function::ModalCall,
+                                    Function::Skip,           Function::Return,    Function::ProgramEnd,
+                                    Function::ProbeOn,        Function::ProbeOff};
+    if (info != nullptr &&
+        std::find(std::begin(kOthers), std::end(kOthers), info->function) != std::end(kOthers))
+      return false;
+  }
+  const auto& body = state_.cycle.body;
+  const ir::ProgramFlow flow = ir::flowOf(body);
+  std::vector<bool> runs(body.size() + 1);
+  for (std::size_t i = 0; i < body.size(); ++i)
+    runs[i] = isMacro(state_, body[i]) || std::holds_alternative<ir::Move>(body[i].node) ||
+              std::holds_alternative<ir::Measure>(body[i].node);
+  const std::vector<bool> leads = ir::leadingTo(runs, flow);
+  const auto at = static_cast<std::size_t>(&statement - body.data());
+  return at < body.size() && std::none_of(flow.next[at].begin(), flow.next[at].end(),
+                                          [&](std::size_t next) { return leads[next]; });
+}
+
 // The block moves the machine, changes the tool or takes its length: what macros rely on stays as it is.
 bool MacroBlocks::leavesModes(const ir::OpaqueBlock& block) {
   for (const ir::Word& word : block.words) {
     if (word.address != 'G' && word.address != 'M') continue;
-    const double* code = word.value == nullptr ? nullptr : ir::constantValue(word.value);
-    const stdlib::CodeInfo* info =
-        code == nullptr || *code < 0 || *code > 9999
-            ? nullptr
-            : state_.options.control.find(word.address, static_cast<std::uint32_t>(std::lround(*code * 10)));
+    const stdlib::CodeInfo* info = codeOf(word);
     if (info == nullptr) return false;
     switch (info->function) {
     case Function::Absolute:
@@ -202,6 +226,7 @@ bool MacroBlocks::leavesModes(const ir::OpaqueBlock& block) {
       incremental_ = info->function == Function::Incremental ? opaque_ : nullptr;
       overwritten_ = false;
       break;
+    case Function::DataInput: // where the axes are is forgotten below
     case Function::ReferenceReturn:
     case Function::MachineCoordinates:
     case Function::ToolLengthPlus:

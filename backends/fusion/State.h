@@ -214,6 +214,8 @@ private:
   void switchProbe(const ir::ProbePower& power, const ir::Origin& origin, std::vector<Text>& lines);
   bool leavesModes(const ir::OpaqueBlock& block);
   bool movesNothing(const ir::OpaqueBlock& block) const;
+  bool endsBranch(const ir::CycleStatement& statement, const ir::OpaqueBlock& block) const;
+  const stdlib::CodeInfo* codeOf(const ir::Word& word) const; // nullptr: none, or it is computed
   bool otherCode(const ir::CycleStatement& statement, Text& text);
   bool modeCode(const ir::SetMode& mode, const ir::Origin& origin, Text& text);
   bool requireNominal(const ir::Measure& measure, const ir::Origin& origin);

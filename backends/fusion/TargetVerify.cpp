@@ -39,7 +39,9 @@ public:
                set_ == nullptr ? std::vector<const stdlib::MacroSet*>{}
                                : std::vector<const stdlib::MacroSet*>{set_},
                limits_),
-        runner_({source.session.options().scriptProgram, source.session.limits()}) {}
+        runner_({source.session.options().scriptProgram, source.session.limits()}) {
+    stand_.passOverAbsent();
+  }
 
   bool meetsLimitsAlike() const override {
     return control_.arithmetic == stdlib::Arithmetic::Decimal8 && sourceSet_ == set_;

@@ -68,6 +68,10 @@ void CheckedCycle::readAll(const Expression& expression) {
 
 void CheckedCycle::collect(const Dialog& dialog) {
   for (const Control& control : dialog.controls) {
+    if (control.initial != nullptr) readAll(*control.initial);
+    if (control.condition)
+      for (const ExpressionPtr* side : {&control.condition->left, &control.condition->right})
+        if (*side != nullptr) readAll(**side);
     if (!control.variable) continue;
     define(*control.variable);
     bound.insert(foldCase(control.variable->text));

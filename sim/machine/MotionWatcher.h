@@ -62,6 +62,8 @@ public:
   virtual void touchedApart() {}
   // The call that is open does something that no source states, and the run goes on as if it did nothing.
   virtual void callUnstated(std::string_view /*what*/, std::span<const double> /*locals*/) {}
+  // M98 of a program that is not at hand and is taken to do nothing (Run::passOverAbsent).
+  virtual void absentCalled(std::uint32_t /*program*/) {}
   // Touches of a cycle that are one measurement, and all that they move and set; and a protected move of a
   // cycle, with its feed where one is stated. Each that begins ends, but for one in which the run ends.
   virtual void touchBegins(std::span<const PlannedTouch> /*touches*/) {}

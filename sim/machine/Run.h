@@ -65,6 +65,9 @@ public:
   // Before the run: values are followed that come from where a skip move
   // has ended that met nothing. The watcher outlives the run.
   void watchMisses(MissWatcher* watcher);
+  // Before the run: M98 of a program that is not there does nothing, and the watcher hears of it; else it is
+  // the control's alarm.
+  void passOverAbsent() { passesOverAbsent_ = true; }
   // Of the value, or of the words, that the machine is given now: the miss that they come from; 0: none.
   std::uint32_t missInHand() const { return missInHand_; }
   void setListener(RunListener* listener) { listener_ = listener; }        // before the run; outlives it
@@ -221,6 +224,7 @@ private:
   const Limits& limits_;
   MacroMeaning* meaning_;
   RunListener* listener_ = nullptr;
+  bool passesOverAbsent_ = false;
   const stdlib::Control& control_;
   double* cells_ = nullptr;
   std::uint32_t place_ = 0; // of the instruction that runs, then of the next

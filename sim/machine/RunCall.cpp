@@ -109,6 +109,12 @@ bool Run::begin(const Request& request) {
                     "`dotek lint` shows them",
                     request.program, file->second));
   const auto number = static_cast<std::uint32_t>(request.program);
+  if (!request.macro && passesOverAbsent_) {
+    if (!spend(1)) return false;
+    if (MotionWatcher* const watcher = machine_.watcher(); watcher != nullptr) watcher->absentCalled(number);
+    ++place_;
+    return true;
+  }
   if (meaning_ == nullptr || !request.macro || !meaning_->knows(number))
     return machine_.raise(Alarm::NoSuchProgram);
   const auto ofMisses = valuesOfMisses();

@@ -64,6 +64,23 @@ TEST_CASE("fanuc copied: what a bare code cannot put back is refused") {
   CHECK(emitCopied({"G68 X0. Y0. R30."}).all().find("write `G69`") != std::string::npos);
 }
 
+TEST_CASE("fanuc copied: a rotation by what was measured is what the cycle leaves") {
+  const auto turned = [](ir::ExpressionPtr angle, bool moves) {
+    Maker cycle;
+    ir::OpaqueBlock block = copied("G68 X0. Y0. R30.");
+    block.words[3].value = std::move(angle);
+    cycle.add(std::move(block));
+    if (moves) cycle.move(ir::Motion::Rapid, ir::Axis::X, number(5));
+    return Target().emit(cycle.cycle);
+  };
+  const ir::ExpressionPtr read = ir::machineVariable(number(547));
+  CHECK(turned(read, false).codes().empty());
+  CHECK(turned(read, false).holds("CHANGES THAT ARE NOT PUT BACK: G68"));
+  CHECK(turned(minus(number(0), read), false).codes().empty());
+  CHECK(turned(read, true).codes() == Codes{"mode-not-restored"}); // the move would be turned
+  CHECK(turned(number(30), false).codes() == Codes{"mode-not-restored"});
+}
+
 TEST_CASE("fanuc copied: what ends as the caller provides it is not refused") {
   CHECK(codesOf({"G68 X0. Y0. R30.", "G69"}).empty());
   CHECK(codesOf({"G51 X0. Y0. P2000", "G50"}).empty());

@@ -23,6 +23,23 @@ TEST_CASE("verify: an alarm of the branch keeps its text with the macros of anot
   CHECK(differs(heights, replaced(fragment, "(PIECE MAL POSEE)", "(PIECE BIEN POSEE)")));
 }
 
+TEST_CASE("verify: coordinates that the cycle leaves turned are turned alike") {
+  for (const char* control : {"fanuc-0i-md", "fanuc-31i-b"}) {
+    const Shop edge{"zones", "HF.Kante.Drehen", "taster", "fanuc", "inspection-plus", control};
+    const std::string good = converted(edge);
+    CHECK_MESSAGE(agrees(verified(edge)), verified(edge));
+    const std::size_t at = good.find("\nG68 ");
+    REQUIRE(at != std::string::npos);
+    const std::string line = good.substr(at, good.find('\n', at + 1) - at);
+    const std::string angle = line.substr(line.find(" R") + 2);
+    CHECK(differs(edge, replaced(good, line, "")));
+    CHECK(differs(edge, replaced(good, line, "\nG69")));
+    CHECK(differs(edge, replaced(good, line, replaced(line, " R" + angle, " R-" + angle))));
+    CHECK(differs(edge, replaced(good, line, replaced(line, " X#", " Y#"))));
+    CHECK(differs(edge, replaced(good, line, line + "\nG69")));
+  }
+}
+
 TEST_CASE("verify: a bore that is measured until it repeats meets the end of its loop") {
   for (const char* macros : {"inspection-plus", "dotek"}) {
     const Shop hole{"retries", "LS-HOLE-RETRY", "probeIt", "fanuc", macros, "fanuc-31i-b"};
