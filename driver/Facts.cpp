@@ -80,8 +80,8 @@ std::string meaningOf(const stdlib::MacroArgument& argument) {
   std::string out = "work offset to set: ";
   out += argument.systemCode == stdlib::SystemCode::Index ? "1 to 6 are G54 to G59" : "54 is G54";
   if (argument.extendedFirst != 0)
-    out +=
-        fmt::format(", {} to {} are G54.1 P1 and following", argument.extendedFirst, argument.extendedLast);
+    out += fmt::format(", {} to {} are G54.1 P1 and following", numberText(argument.extendedFirst),
+                       numberText(argument.extendedLast));
   return out;
 }
 

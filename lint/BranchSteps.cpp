@@ -184,7 +184,7 @@ void lookAround(const Project& project, const compost::Program& prog, const Call
 
 BlockDeeds deedsOf(const ProgBlock& block, const Project& project) {
   BlockDeeds out;
-  const std::vector<ProgWord> words = wordsOf(block, project.form);
+  const std::vector<ProgWord> words = wordsOf(block, project.form, true);
   bool home = false;
   bool skip = false;
   for (const ProgWord& word : words) {

@@ -137,7 +137,15 @@ bool isMacroWord(std::string_view text) {
 }
 
 // Words of one literal; false where the rest of the block is no NC block.
-bool wordsOfText(const ProgPiece& piece, bool& comment, std::vector<ProgWord>& out) {
+// Where the text before has ended: in a comment, in how many brackets of a value.
+struct Within {
+  bool comment = false;
+  int brackets = 0;
+  bool readsBrackets = false; // else they are not taken apart
+};
+
+bool wordsOfText(const ProgPiece& piece, Within& within, std::vector<ProgWord>& out) {
+  bool& comment = within.comment;
   const std::string& text = piece.literal->text;
   // Places are known where the literal's range holds its bytes between two apostrophes.
   const bool placed = piece.range.end - piece.range.begin == text.size() + 2;
@@ -149,7 +157,10 @@ bool wordsOfText(const ProgPiece& piece, bool& comment, std::vector<ProgWord>& o
   };
   for (std::size_t at = 0; at < text.size();) {
     const char c = text[at];
-    if (comment || c == '(') {
+    if (within.brackets > 0) {
+      within.brackets += c == '[' ? 1 : c == ']' ? -1 : 0;
+      ++at;
+    } else if (comment || c == '(') {
       comment = c != ')';
       ++at;
     } else if (c == ' ' || c == '\t' || c == '/') {
@@ -163,6 +174,13 @@ bool wordsOfText(const ProgPiece& piece, bool& comment, std::vector<ProgWord>& o
       if (end == at + 1 && end + 1 < text.size() && text[end] == '#' && isDigit(text[end + 1]))
         for (++end; end < text.size() && isDigit(text[end]);)
           ++end;
+      if (within.readsBrackets && end < text.size() && text[end] == '[' && end == at + 1) {
+        out.push_back(
+            {static_cast<char>(std::toupper(static_cast<unsigned char>(c))), "[", nullptr, place(at, end)});
+        within.brackets = 1;
+        at = end + 1;
+        continue;
+      }
       if (end < text.size() && (text[end] == '#' || text[end] == '[')) return false;
       out.push_back({static_cast<char>(std::toupper(static_cast<unsigned char>(c))),
                      text.substr(at + 1, end - at - 1), nullptr, place(at, end)});
@@ -192,13 +210,14 @@ ProgPiece::Kind pieceKind(const compost::Word& word, const Project& project) {
   return number ? ProgPiece::Kind::Sequence : ProgPiece::Kind::Command;
 }
 
-std::vector<ProgWord> wordsOf(const ProgBlock& block, const stdlib::Form* form) {
+std::vector<ProgWord> wordsOf(const ProgBlock& block, const stdlib::Form* form, bool expressions) {
   std::vector<ProgWord> out;
-  bool comment = false;
+  Within within;
+  within.readsBrackets = expressions;
   for (const ProgPiece& piece : block.pieces) {
     if (piece.kind == ProgPiece::Kind::Text) {
-      if (!wordsOfText(piece, comment, out)) return {};
-    } else if (comment || piece.kind == ProgPiece::Kind::Sequence) {
+      if (!wordsOfText(piece, within, out)) return {};
+    } else if (within.comment || within.brackets > 0 || piece.kind == ProgPiece::Kind::Sequence) {
       continue;
     } else if (piece.kind == ProgPiece::Kind::Number) {
       const bool open = !out.empty() && out.back().hole == nullptr &&

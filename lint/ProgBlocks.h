@@ -25,7 +25,7 @@ struct ProgPiece {
 // An NC word of a block: an address with digits, or with a hole that a piece fills.
 struct ProgWord {
   char address = 0;
-  std::string digits;              // of a hole: "" or the sign before it
+  std::string digits;              // of a hole: "" or the sign before it; of an expression in brackets: "["
   const ProgPiece* hole = nullptr; // what fills it
   SourceRange range;               // of the address and its digits
 };
@@ -49,7 +49,8 @@ struct ProgBlock {
 ProgPiece::Kind pieceKind(const compost::Word& word, const Project& project);
 // Words of the block; the hole of a command is the address that the form prints for it. A macro statement has
 // none. Points into the block.
-std::vector<ProgWord> wordsOf(const ProgBlock& block, const stdlib::Form* form);
+// `expressions`: words with one are among them; else a block that has one gives none.
+std::vector<ProgWord> wordsOf(const ProgBlock& block, const stdlib::Form* form, bool expressions = false);
 // The digits of the first word with this address; "" for none, or a hole.
 std::string digitsOf(const std::vector<ProgWord>& words, char address);
 const ProgWord* findWord(const std::vector<ProgWord>& words, char address);

@@ -45,6 +45,7 @@ Control ControlReader::read() {
   for (const TomlTable& table : stated)
     codeRanges(table);
   motion();
+  dwell();
   rotation();
   turning();
   readAhead();
@@ -218,6 +219,14 @@ void ControlReader::motion() {
   }
   if (const TomlValue letter = table.value("repeat"))
     control_.repeatLetter = letter.choice({"K", "L"}, "K").front();
+}
+
+void ControlReader::dwell() {
+  const ControlSection table = optional("dwell");
+  if (!table) return;
+  origin(table);
+  control_.dwellLetter =
+      table.require("seconds", "the address that takes seconds: X or P").choice({"X", "P"}, "X").front();
 }
 
 void ControlReader::rotation() {

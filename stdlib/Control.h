@@ -271,6 +271,8 @@ struct MacroPackage {
   std::uint32_t calibrationFirst = 0,
                 calibrationLast = 0;      // of the stylus, in place of #500 and the following
   std::uint32_t radiusX = 0, radiusY = 0; // of the ball, among them
+  // Numbers of a work offset beyond G59 in a call, in place of those of the set; 0: none is known.
+  double extendedFirst = 0, extendedLast = 0, extendedStep = 1;
 };
 
 struct Control {
@@ -310,6 +312,8 @@ struct Control {
   std::optional<LengthInPositions> withToolLength; // nothing: not known
   std::optional<double> arcTolerance; // mm, between the radii of an arc's ends; nothing: not known
   char repeatLetter = 0;              // of canned cycles; 0: not known
+  char dwellLetter =
+      'X'; // of G4 with seconds; P: seconds with a point, milliseconds without, and X is in no source
   RotationFacts rotation;
   std::optional<std::uint32_t>
       callDepth;                   // calls within calls, macros and subprograms together; nothing: not known

@@ -8,10 +8,10 @@
 namespace dotek::stdlib {
 namespace {
 
-constexpr std::string_view kPlain[] = {"decimal",      "lengths", "words",    "language",         "alarm",
-                                       "programs",     "motion",  "rotation", "with_tool_length", "nesting",
-                                       "read_ahead",   "output",  "window",   "turning",          "variables",
-                                       "macro_package"};
+constexpr std::string_view kPlain[] = {
+    "decimal",   "lengths",          "words",   "language",   "alarm",  "programs", "motion",
+    "rotation",  "with_tool_length", "nesting", "read_ahead", "output", "window",   "turning",
+    "variables", "macro_package",    "dwell"};
 
 std::string shown(const TomlValue& value) {
   if (value.isText()) return value.text();

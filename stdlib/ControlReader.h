@@ -71,6 +71,7 @@ private:
   void alarm();
   void programs();
   void motion();
+  void dwell();
   void rotation();
   void turning();
 

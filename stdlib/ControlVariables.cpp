@@ -253,6 +253,14 @@ void ControlReader::package() {
   out.radiusY = whole(table, "radius_y", "the variable of the ball's radius in Y", 100, 9999);
   if (out.calibrationLast < out.calibrationFirst)
     document_.fail(table.range("calibration_last"), "`calibration_last` is less than `calibration_first`");
+  if (table.value("extended_first")) {
+    out.extendedFirst =
+        table.require("extended_first", "the number that stands for the first system").number();
+    out.extendedLast = table.require("extended_last", "the last number of these systems").number();
+    out.extendedStep = table.require("extended_step", "how far these numbers are apart").number();
+    if (out.extendedFirst <= 6 || out.extendedLast < out.extendedFirst || out.extendedStep <= 0)
+      document_.fail(table.range("extended_first"), "numbers of systems beyond G59 rise from above 6");
+  }
   control_.package = std::move(out);
 }
 

@@ -115,10 +115,15 @@ struct MacroArgument {
   bool positive = false; // the macro takes values above 0 alone; a clearance below 0 is an island elsewhere
   SystemCode systemCode = SystemCode::GNumber;
   SystemRule systemRule = SystemRule::Nominal;
-  // Of an Index: numbers beside 1 to 6 that stand for G54.1 P1 and following; 0: none.
-  std::uint32_t extendedFirst = 0, extendedLast = 0;
+  // Of an Index: numbers beside 1 to 6 that stand for G54.1 P1 and following, a step apart; 0: none.
+  double extendedFirst = 0, extendedLast = 0, extendedStep = 1;
   std::string unknown; // what no source says of it: a run by meaning that meets it is inconclusive
 };
+
+// The n of G54.1 Pn that a number of the argument stands for; 0: it names none.
+std::uint32_t extendedSystem(const MacroArgument& argument, double number);
+// The number that stands for G54.1 Pn.
+double extendedNumber(const MacroArgument& argument, std::uint32_t n);
 
 // What a variable holds after the call. X(id, name in the data)
 #define DOTEK_OUTPUTS(X)                                                                                     \

@@ -310,9 +310,9 @@ private:
                          : SystemRule::Nominal;
     if (!table.has("extended_first") && !table.has("extended_last")) return;
     const TomlValue first = table.require("extended_first", "the number that stands for G54.1 P1");
-    out.extendedFirst = static_cast<std::uint32_t>(first.integer(7, 7, 9999));
-    out.extendedLast = static_cast<std::uint32_t>(
-        table.require("extended_last", "the last number of G54.1").integer(7, 7, 9999));
+    out.extendedFirst = static_cast<double>(first.integer(7, 7, 9999));
+    out.extendedLast =
+        static_cast<double>(table.require("extended_last", "the last number of G54.1").integer(7, 7, 9999));
     if (out.systemCode != SystemCode::Index || out.extendedFirst > out.extendedLast)
       document_.fail(first.range(), "numbers of G54.1 form a range of an index");
   }

@@ -9,9 +9,9 @@ namespace dotek::stdlib {
 
 template <class Archive> void fields(Archive& archive, MacroArgument& it) {
   auto& [letter, role, axis, frame, kind, selector, point, required, positive, systemCode, systemRule,
-         extendedFirst, extendedLast, unknown] = it;
+         extendedFirst, extendedLast, extendedStep, unknown] = it;
   archive(letter, role, axis, frame, kind, selector, point, required, positive, systemCode, systemRule,
-          extendedFirst, extendedLast, unknown);
+          extendedFirst, extendedLast, extendedStep, unknown);
 }
 template <class Archive> void fields(Archive& archive, MacroResult& it) {
   auto& [output, name, variable, documented, taken] = it;
@@ -87,22 +87,24 @@ template <class Archive> void fields(Archive& archive, TurningFacts& it) {
   archive(increments, diameters, axes, startCodes, offsetDigits, grade, source);
 }
 template <class Archive> void fields(Archive& archive, MacroPackage& it) {
-  auto& [set, title, shift, calibrationFirst, calibrationLast, radiusX, radiusY] = it;
-  archive(set, title, shift, calibrationFirst, calibrationLast, radiusX, radiusY);
+  auto& [set, title, shift, calibrationFirst, calibrationLast, radiusX, radiusY, extendedFirst, extendedLast,
+         extendedStep] = it;
+  archive(set, title, shift, calibrationFirst, calibrationLast, radiusX, radiusY, extendedFirst, extendedLast,
+          extendedStep);
 }
 template <class Archive> void fields(Archive& archive, Control& it) {
   auto& [name, title, origin, decimal, decimalGrade, arithmetic, lengths, increment, decimals, integerDigits,
          digits, ifThen, joinedConditions, thenGoto, bareFunctions, bracketDepth, locals, macroLevels, common,
          readOnly, toolOffsets, functions, alarmFirst, alarmLast, alarmShown, alarmLength, programLast,
          colonNames, programNames, sequenceLast, variables, withToolLength, arcTolerance, repeatLetter,
-         rotation, callDepth, repeatInProgram, callCodes, readAheadStops, state, window, package,
+         dwellLetter, rotation, callDepth, repeatInProgram, callCodes, readAheadStops, state, window, package,
          printPadding, alarms, codes, turning] = it;
   archive(name, title, origin, decimal, decimalGrade, arithmetic, lengths, increment, decimals, integerDigits,
           digits, ifThen, joinedConditions, thenGoto, bareFunctions, bracketDepth, locals, macroLevels,
           common, readOnly, toolOffsets, functions, alarmFirst, alarmLast, alarmShown, alarmLength,
           programLast, colonNames, programNames, sequenceLast, variables, withToolLength, arcTolerance,
-          repeatLetter, rotation, callDepth, repeatInProgram, callCodes, readAheadStops, state, window,
-          package, printPadding, alarms, codes, turning);
+          repeatLetter, dwellLetter, rotation, callDepth, repeatInProgram, callCodes, readAheadStops, state,
+          window, package, printPadding, alarms, codes, turning);
 }
 
 namespace {

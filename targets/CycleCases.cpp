@@ -175,6 +175,8 @@ std::unique_ptr<CaseRunner::Values> CaseRunner::check(verify::Case drawn, bool s
     if (one.severity != Severity::Error) continue;
     out->rejected = true;
     out->rejection = one.message;
+    for (const DiagnosticNote& note : one.notes) // a hint may come before what rejects them
+      out->rejection += "; " + note.message;
     out->rejectedAt = one.range;
     return out;
   }

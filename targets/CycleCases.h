@@ -14,6 +14,7 @@
 #include "targets/Verification.h"
 #include "verify/Compare.h"
 #include "verify/Draw.h"
+#include "verify/Random.h"
 #include "verify/Stand.h"
 
 #include <cstdint>
@@ -76,6 +77,8 @@ private:
   struct Values; // of one case, after the checks
   class Questions;
   std::unique_ptr<Values> check(verify::Case drawn, bool settle);
+  void setsActive(verify::Case& proposal) const;
+  void takeFirstValues(verify::Case& proposal, verify::Random random) const;
   std::optional<verify::Case> drawFrom(std::uint64_t index, std::uint32_t tries, std::uint32_t end,
                                        bool wide);
   // A target that writes a program for each case, and nothing was found for this one: what is refused

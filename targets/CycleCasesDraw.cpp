@@ -2,6 +2,7 @@
 #include "targets/CycleCasesParts.h"
 #include "targets/NominalFields.h"
 #include "verify/Bounds.h"
+#include "verify/Random.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,6 +19,8 @@ constexpr std::uint32_t kNearest = 4;        // times that their part's error is
 // vain.
 constexpr std::uint64_t kAsked = 4;
 constexpr std::uint32_t kForeseen = 1500;
+// Each so many-th case that is drawn in another's place.
+constexpr std::uint32_t kSetsActive = 4, kFirstValues = 3;
 constexpr std::uint64_t kCallerCases = 8; // in which callers break what the translation demands
 
 } // namespace
@@ -37,6 +40,28 @@ std::optional<verify::Case> CaseRunner::another(std::uint64_t index) {
   std::optional<verify::Case> out = drawFrom(index, tries_, end, true);
   // Where the limits are far beyond what is measured few values may pass the checks.
   return out || stopped_ ? out : drawFrom(index, tries_, end, false);
+}
+
+// What the system that the cycle sets has been is near what it becomes: it is the one in which the part lies.
+// A cycle that compares the two stops in all other cases.
+void CaseRunner::setsActive(verify::Case& proposal) const {
+  for (const verify::DrawField& field : plan_.fields) {
+    const auto value = proposal.values.find(field.name);
+    if (field.kind != ir::Kind::WorkOffset || value == proposal.values.end()) continue;
+    if (const std::uint32_t system = field.systemOf(value->second); system != 0) proposal.system = system;
+    return;
+  }
+}
+
+// With its first values a cycle comes to its end; the more cases were in vain, the more of them are taken.
+void CaseRunner::takeFirstValues(verify::Case& proposal, verify::Random random) const {
+  const double share = std::min(0.9, 0.2 * (others_ - 1));
+  for (const verify::DrawField& field : plan_.fields) {
+    const auto value = proposal.values.find(field.name);
+    if (value == proposal.values.end() || !field.initial || field.fixed || field.kind == ir::Kind::WorkOffset)
+      continue;
+    if (random.chance(share)) value->second = *field.initial;
+  }
 }
 
 // Proposals from `tries` on, up to `end`.
@@ -63,6 +88,11 @@ std::optional<verify::Case> CaseRunner::drawFrom(std::uint64_t index, std::uint3
       for (double* const part :
            {&proposal.error.shift.x, &proposal.error.shift.y, &proposal.error.shift.z, &proposal.error.turn})
         *part = std::round(*part * share * 1000) / 1000;
+      if (!options_.activeSystem && others_ % kSetsActive == 0) setsActive(proposal);
+      if (others_ % kFirstValues == 2)
+        if (others_ % kFirstValues == 2)
+          takeFirstValues(proposal,
+                          verify::Random(verify::Random::sub(options_.seed, index * kAttempts + which)));
     }
     return proposal;
   };

@@ -77,9 +77,10 @@ void findExtended(verify::DrawField& field, const stdlib::MacroSet& macros, cons
     return nullptr;
   }();
   if (argument == nullptr || !control.variables.extendedX) return;
-  const double first = argument->extendedFirst;
-  const double last = std::min<double>(argument->extendedLast, first + control.variables.extendedCount - 1);
-  const auto isExtended = [&](double value) { return value >= first && value <= last; };
+  const auto isExtended = [&](double value) {
+    const std::uint32_t n = stdlib::extendedSystem(*argument, value);
+    return n != 0 && static_cast<int>(n) <= control.variables.extendedCount;
+  };
   const auto isOne = [&](double value) { return field.systemOf(value) != 0; };
   if (!field.choices.empty()) {
     std::copy_if(field.choices.begin(), field.choices.end(), std::back_inserter(field.extended), isExtended);
@@ -88,12 +89,13 @@ void findExtended(verify::DrawField& field, const stdlib::MacroSet& macros, cons
   }
   const bool begins = field.initial && isExtended(*field.initial);
   const bool shown = begins || std::any_of(field.thresholds.begin(), field.thresholds.end(), isExtended);
-  for (double value = first; shown && value <= last; ++value)
-    field.extended.push_back(value);
+  for (std::uint32_t n = 1; shown && isExtended(stdlib::extendedNumber(*argument, n)); ++n)
+    field.extended.push_back(stdlib::extendedNumber(*argument, n));
   const auto compares = [&](double least, double most) {
     return std::any_of(field.thresholds.begin(), field.thresholds.end(),
                        [&](double value) { return value >= least && value <= most; });
   };
+  const double first = argument->extendedFirst;
   field.extendedAlone = begins && compares(first - 1, first) && !compares(1, 6) && !compares(54, 59);
 }
 

@@ -1,5 +1,6 @@
 #include "verify/Compare.h"
 
+#include "support/Ascii.h"
 #include "support/Decimal.h"
 #include "verify/CompareLeft.h"
 #include "verify/CompareParts.h"
@@ -101,11 +102,11 @@ private:
     return sameOwnText();
   }
 
-  // Of `#3000`; one control may show less of it.
+  // Of `#3000`; one control may show less of it, and a translation writes it in capitals.
   bool sameOwnText() const {
-    const std::size_t shown = std::min(source_.text.size(), target_.text.size());
-    return source_.text.compare(0, shown, target_.text, 0, shown) == 0 &&
-           (shown > 0 || source_.text == target_.text);
+    const std::string one = upperCase(source_.text), other = upperCase(target_.text);
+    const std::size_t shown = std::min(one.size(), other.size());
+    return one.compare(0, shown, other, 0, shown) == 0 && (shown > 0 || one == other);
   }
 
   // A translation numbers the alarms of the source's own text anew and keeps their texts.

@@ -78,11 +78,12 @@ private:
   }
   Written writtenZero(const Zero& key) const {
     const Written out = writtenOffset(subjectOf(key));
-    return out.bySource() || out.byTarget() ? out
-                                            : writtenOffset(fmt::format("external {}", "XYZ"[key.second]));
+    return out.bySource() || out.byTarget()
+               ? out
+               : writtenOffset(fmt::format("external {}", sim::kAxisLetters[key.second]));
   }
   static std::string subjectOf(const Zero& key) {
-    return fmt::format("{} {}", systemName(key.first), "XYZ"[key.second]);
+    return fmt::format("{} {}", systemName(key.first), sim::kAxisLetters[key.second]);
   }
   Written writtenStore(std::uint32_t number) const {
     return {writesOf(source_.storeWrites, number), writesOf(target_.storeWrites, number),
@@ -147,11 +148,12 @@ private:
   void zeros() {
     for (const auto& [key, value] : source_.zeros) {
       const auto other = target_.zeros.find(key);
-      const double equal = std::max(rules_.results, rules_.relative * std::abs(value));
+      const double equal =
+          std::max({rules_.results, rules_.relative * std::abs(value), key.second > 2 ? rules_.angles : 0});
       if (other != target_.zeros.end() && std::abs(other->second - value) <= equal) continue;
       const bool shift = key.first == 52 || key.first == 92;
       const std::string what = fmt::format("{} {} along {}", shift ? "what" : "the zero of",
-                                           systemName(key.first), "XYZ"[key.second]);
+                                           systemName(key.first), sim::kAxisLetters[key.second]);
       const Written written = writtenZero(key);
       const std::string where = fixedText(value, kShown);
       std::string text;
@@ -169,13 +171,13 @@ private:
     }
   }
 
-  // Of additional systems only those are there that were changed.
+  // Of additional systems, and along axes beside X, Y and Z, only those are there that were changed.
   void otherZeros() {
     for (const auto& [key, value] : target_.zeros) {
-      if (key.first <= kExtendedSystem || source_.zeros.contains(key)) continue;
+      if ((key.first <= kExtendedSystem && key.second < 3) || source_.zeros.contains(key)) continue;
       if (!add(Aspect::Offset, subjectOf(key),
                fmt::format("the translation moves the zero of {} along {} to {}, the source does not",
-                           systemName(key.first), "XYZ"[key.second], fixedText(value, kShown)),
+                           systemName(key.first), sim::kAxisLetters[key.second], fixedText(value, kShown)),
                writtenZero(key)))
         return;
     }

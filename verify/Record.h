@@ -188,8 +188,9 @@ struct Record {
   std::vector<double> locals;
   // What went wrong on the path (no contacts, no misses), and where in the program.
   std::vector<std::pair<sim::ProbeEvent, SourceRange>> events;
-  // Work offsets that were written: G number (54 to 59; 54.1 Pn as kExtendedSystem + n) and axis (0 to 2), to
-  // the machine position of the zero. 52 and 92: by how much these have shifted all of them.
+  // Work offsets that were written: G number (54 to 59; 54.1 Pn as kExtendedSystem + n) and axis (0 to 2
+  // always, a further one where it is not 0), to the machine position of the zero. 52 and 92: by how much
+  // these have shifted all of them.
   std::map<std::pair<std::uint32_t, std::uint32_t>, double> zeros;
   std::map<std::uint32_t, sim::Machine::ToolOffset> tools; // entries of the tool table that were changed
   std::optional<std::uint32_t> tool;                       // that T has named last; nothing: that at entry

@@ -527,13 +527,13 @@ Record Recorder::finish(const std::set<std::uint32_t>& stores) {
   // Of the additional systems those that were changed: not every control has as many.
   const std::vector<sim::Position>& extended = machine_.extendedZeros();
   for (std::uint32_t number = 1; number < extended.size(); ++number)
-    for (std::uint32_t axis = 0; axis < 3; ++axis)
+    for (std::uint32_t axis = 0; axis < sim::kAxes; ++axis)
       if (extended[number][axis] != extended_[number][axis])
         record_.zeros[{kExtendedSystem + number, axis}] = extended[number][axis];
   for (std::uint32_t system = 0; system < 6; ++system) {
     const sim::Position zero = machine_.zeroOf(system);
-    for (std::uint32_t axis = 0; axis < 3; ++axis)
-      record_.zeros[{54 + system, axis}] = zero[axis];
+    for (std::uint32_t axis = 0; axis < sim::kAxes; ++axis)
+      if (axis < 3 || zero[axis] != 0) record_.zeros[{54 + system, axis}] = zero[axis]; // others begin at 0
   }
   for (std::uint32_t axis = 0; axis < 3; ++axis) {
     record_.zeros[{52, axis}] = machine_.localShift()[axis];

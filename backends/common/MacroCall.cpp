@@ -369,4 +369,13 @@ FoundResult resultAfter(const stdlib::MacroSignature& signature, const ir::Cycle
   return {findResult(signature, name), std::nullopt};
 }
 
+bool movesProbe(const ir::CycleStatement& statement) {
+  return ir::match(
+      statement, [](const ir::OneOf<ir::Move, ir::Measure> auto&) { return true; },
+      [](const ir::CallCycle& call) { return call.moves; },
+      [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Comment, ir::Assign, ir::ProbePower,
+                         ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop, ir::Alarm,
+                         ir::OpaqueBlock> auto&) { return false; });
+}
+
 } // namespace dotek::backends

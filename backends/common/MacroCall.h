@@ -135,4 +135,7 @@ FoundResult resultAfter(const stdlib::MacroSignature& signature, const ir::Measu
 FoundResult resultAfter(const stdlib::MacroSignature& signature, const ir::CycleStatement& measured,
                         ir::ResultName name);
 
+// A move, a measurement, or a call that is one of the two.
+bool movesProbe(const ir::CycleStatement& statement);
+
 } // namespace dotek::backends

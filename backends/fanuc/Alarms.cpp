@@ -73,18 +73,22 @@ AlarmText shownText(State& state, const std::string& message, std::string_view o
   return out;
 }
 
-AlarmText messageOf(State& state, const ir::CycleStatement& statement, const std::string& message) {
+// `check`: of a dialog, which rejects values without saying why.
+AlarmText messageOf(State& state, const ir::CycleStatement& statement, const std::string& message,
+                    bool check) {
   const SourceRange range = statement.origin.range();
   if (message.find_first_not_of(" \t") != std::string::npos)
     return shownText(state, message, "VALUES REFUSED", range);
   AlarmText out;
+  if (!check) return out;
   out.shown = "VALUES REFUSED";
   if (range.hasPlace()) out.shown += " LINE " + std::to_string(state.sources.line(range));
   return out;
 }
 
 std::string alarmText(const AlarmText& alarm) {
-  return "#3000=" + std::to_string(alarm.number) + "(" + alarm.shown + ")";
+  const std::string number = "#3000=" + std::to_string(alarm.number);
+  return alarm.shown.empty() ? number : number + "(" + alarm.shown + ")";
 }
 
 } // namespace
@@ -120,7 +124,7 @@ void collectAlarms(State& state) {
       if (state.options.branch && list == &state.cycle.checks) break; // they are the dialog's business
       const auto* alarm = std::get_if<ir::Alarm>(&statement.node);
       if (alarm == nullptr) continue;
-      AlarmText text = messageOf(state, statement, alarm->message);
+      AlarmText text = messageOf(state, statement, alarm->message, list == &state.cycle.checks);
       text.number = nextNumber(state, statement.origin.range());
       state.sourceAlarms[&statement] = state.alarms.size();
       state.alarms.push_back(std::move(text));

@@ -116,7 +116,15 @@ private:
 
   void pause(const ir::Dwell& dwell, const ir::Origin& origin) {
     code(Function::Dwell, "a dwell", origin);
-    value('X', dwell.seconds, Form::Length, origin); // seconds with a point
+    if (state_.control.dwellLetter == 'X') {
+      value('X', dwell.seconds, Form::Length, origin); // seconds with a point
+      return;
+    }
+    const ir::ExpressionPtr seconds = tidy(dwell.seconds);
+    if (const double* known = ir::constantValue(seconds))
+      value('P', ir::constant(std::round(*known * 1000), seconds->range), Form::Whole, origin);
+    else
+      state_.refuse<diag::DwellComputed>(origin.range(), state_.control.title);
   }
 
   void setStop(const ir::Stop& stop, const ir::Origin& origin) {
@@ -241,7 +249,38 @@ bool isBlock(const ir::CycleStatement& statement) {
                          ir::Jump, ir::Branch, ir::Return, ir::Alarm, ir::Comment> auto&) { return false; });
 }
 
+// A block of one code alone that says how far the source's control reads ahead (G103 of a Haas), and that the
+// target has not. nullptr: it is another one.
+const stdlib::CodeInfo* readAheadLimit(const State& state, const ir::OpaqueBlock& block, bool& limits) {
+  const stdlib::Control& from = state.options.sourceControl;
+  const stdlib::CodeInfo* out = nullptr;
+  for (const ir::Word& word : block.words) {
+    if (word.address == 'N') continue;
+    const double* number = word.value == nullptr ? nullptr : ir::constantValue(word.value);
+    limits = limits || word.address == 'P';
+    if (word.address == 'P' && number != nullptr) continue;
+    if (word.address != 'G' || number == nullptr || *number < 0 || *number > 9999) return nullptr;
+    const auto tenths = static_cast<std::uint32_t>(std::lround(*number * 10));
+    const stdlib::CodeInfo* info = from.find('G', tenths);
+    const bool stops =
+        std::binary_search(from.readAheadStops.begin(), from.readAheadStops.end(), std::pair('G', tenths));
+    if (out != nullptr || info == nullptr || !stops || info->function != Function::Auxiliary ||
+        state.control.find('G', tenths) != nullptr)
+      return nullptr;
+    out = info;
+  }
+  return out;
+}
+
 void writeOpaque(State& state, const ir::OpaqueBlock& block, const ir::Origin& origin) {
+  bool limits = false;
+  if (const stdlib::CodeInfo* code = readAheadLimit(state, block, limits)) {
+    state.diagnostics.report<diag::ReadAheadLeftOut>(
+        origin.range(), codeText(*code), state.options.sourceControl.title, state.control.title,
+        limits ? "a block that waits is in its place" : "it is left out");
+    if (limits) writeWait(state, origin);
+    return;
+  }
   const std::string text = copiedText(state, block, origin);
   if (text.empty()) return;
   for (const LengthOffset& offset : lengthOffsets(state.cycle, state.control)) {

@@ -1,4 +1,5 @@
 // What copied blocks leave in force: saved by Modes.cpp where a bare code puts it back, refused otherwise.
+#include "backends/common/MacroCall.h"
 #include "backends/fanuc/State.h"
 #include "ir/Flow.h"
 #include "ir/Walk.h"
@@ -165,11 +166,6 @@ private:
             std::holds_alternative<ir::MeasuredResult>(node.node);
     });
     return out;
-  }
-  static bool movesProbe(const ir::CycleStatement& statement) {
-    const auto* call = std::get_if<ir::CallCycle>(&statement.node);
-    return std::holds_alternative<ir::Move>(statement.node) ||
-           std::holds_alternative<ir::Measure>(statement.node) || (call != nullptr && call->moves);
   }
   bool changesTool(const ir::CycleStatement& statement) const {
     const auto* block = std::get_if<ir::OpaqueBlock>(&statement.node);

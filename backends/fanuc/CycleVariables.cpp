@@ -51,6 +51,35 @@ ir::ExpressionPtr countedFrom(const ir::ExpressionPtr& number, std::uint32_t fro
   return right ? ir::binary(sum->op, sum->left, right, number->range) : nullptr;
 }
 
+// A number that counts on: `first` and `step` times a value.
+struct Counted {
+  double first = 0, step = 0;
+};
+
+// `from` in the place of each of the two, as `to`: `5201+20*n` as `2500+n`. nullptr: `number` has another
+// form.
+ir::ExpressionPtr countedAs(const ir::ExpressionPtr& number, const Counted& from, const Counted& to) {
+  const auto* sum = std::get_if<ir::Binary>(&number->node);
+  if (sum == nullptr || sum->op != ir::BinaryOp::Add) return nullptr;
+  const auto isFirst = [&](const ir::ExpressionPtr& term) {
+    const double* value = ir::constantValue(term);
+    return value != nullptr && *value == from.first;
+  };
+  const ir::ExpressionPtr& other = isFirst(sum->left) ? sum->right : sum->left;
+  const auto* product = std::get_if<ir::Binary>(&other->node);
+  if ((!isFirst(sum->left) && !isFirst(sum->right)) || product == nullptr ||
+      product->op != ir::BinaryOp::Multiply)
+    return nullptr;
+  const double *left = ir::constantValue(product->left), *right = ir::constantValue(product->right);
+  if ((left == nullptr) == (right == nullptr) || *(left != nullptr ? left : right) != from.step)
+    return nullptr;
+  const ir::ExpressionPtr& counter = left != nullptr ? product->right : product->left;
+  const ir::ExpressionPtr steps =
+      to.step == 1 ? counter
+                   : ir::binary(ir::BinaryOp::Multiply, ir::constant(to.step), counter, other->range);
+  return ir::binary(ir::BinaryOp::Add, ir::constant(to.first), steps, number->range);
+}
+
 class Variables {
 public:
   explicit Variables(State& state) : state_(state) {}
@@ -149,8 +178,25 @@ private:
     if (base && *base >= kFirstSystem && sameOffsets() && stdlib::isOfOffsets(state_.control, *base) &&
         (!isBeyond(*base) || sameBeyond(number)))
       return number;
+    if (base && !sameOffsets())
+      if (const ir::ExpressionPtr there = ofSystems(number, *base)) return there;
     refuseComputed(base, range);
     return number;
+  }
+
+  // An offset of G54 to G59 by a computed system, where the two controls have them in other places; nullptr:
+  // it is none, or its axis is computed as well.
+  ir::ExpressionPtr ofSystems(const ir::ExpressionPtr& number, std::uint32_t base) const {
+    const stdlib::SystemVariables& from = state_.options.sourceControl.variables;
+    const stdlib::SystemVariables& to = state_.control.variables;
+    if (!from.workOffsetX || !to.workOffsetX || from.axisStep != 1 || from.systemStep <= 0) return nullptr;
+    // #5201 of `#[5201+20*n]` is one system before G54.
+    const int before = static_cast<int>(base) - (*from.workOffsetX - from.systemStep);
+    if (before < 0 || before >= 7 * from.systemStep || before % from.systemStep > 2) return nullptr;
+    const int system = before / from.systemStep - 1, axis = before % from.systemStep;
+    const int first = *to.workOffsetX + system * to.systemStep + axis * to.axisStep;
+    return countedAs(number, {static_cast<double>(base), static_cast<double>(from.systemStep)},
+                     {static_cast<double>(first), static_cast<double>(to.systemStep)});
   }
 
   ir::ExpressionPtr ofTools(const ir::ExpressionPtr& number, std::uint32_t base, SourceRange range) {
@@ -239,6 +285,11 @@ bool isSystemByList(const State& state, const ir::Expression& number) {
   });
 }
 
+// G10 itself, and G90 and G91 beside it: the one sets, the other adds (haas.md, 5).
+bool isOfDataInput(const ir::Word& word, double number) {
+  return word.address == 'G' && (number == 10 || number == 90 || number == 91);
+}
+
 // `G10 L2 P1 X.. Y.. Z..` writes an offset on both: P1 to P6 are the systems of the group that both tell.
 bool writesWorkOffset(const State& state, const ir::OpaqueBlock& block) {
   bool offset = false;
@@ -249,7 +300,7 @@ bool writesWorkOffset(const State& state, const ir::OpaqueBlock& block) {
       if (word.address != 'P' || word.value == nullptr || !isSystemByList(state, *word.value)) return false;
     } else if (word.address == 'L' && *number == 2) {
       offset = true;
-    } else if (!(word.address == 'G' && *number == 10) && !(word.address == 'P' && isSystem(*number))) {
+    } else if (!isOfDataInput(word, *number) && !(word.address == 'P' && isSystem(*number))) {
       return false;
     }
   }
@@ -273,7 +324,7 @@ bool writesToolOrExtended(const State& state, const ir::OpaqueBlock& block) {
       std::any_of(block.words.begin(), block.words.end(), [&](const ir::Word& word) {
         const double* number = word.value == nullptr ? nullptr : ir::constantValue(word.value);
         return words.find(word.address) == std::string_view::npos ||
-               (word.address == 'G' && (number == nullptr || *number != 10));
+               (word.address == 'G' && (number == nullptr || !isOfDataInput(word, *number)));
       }))
     return false;
   const stdlib::SystemVariables &from = state.options.sourceControl.variables, &to = state.control.variables;
@@ -287,8 +338,9 @@ bool writesToolOrExtended(const State& state, const ir::OpaqueBlock& block) {
 // `L20`".
 std::string unlikeWorkOffset(const ir::OpaqueBlock& block) {
   for (const ir::Word& word : block.words) {
-    if (std::string_view("GXYZN").find(word.address) != std::string_view::npos) continue;
+    if (std::string_view("XYZN").find(word.address) != std::string_view::npos) continue;
     const double* number = word.value == nullptr ? nullptr : ir::constantValue(word.value);
+    if (word.address == 'G' && number != nullptr && isOfDataInput(word, *number)) continue;
     if (word.address == 'L' && number != nullptr && *number == 2) continue;
     if (word.address == 'P' && number != nullptr && isSystem(*number)) continue;
     return number == nullptr ? fmt::format("its `{}` is computed", word.address)

@@ -165,6 +165,9 @@ private:
     const bool whole = value != nullptr && *value >= 0 && *value < 1e9 &&
                        *value == static_cast<double>(static_cast<std::uint32_t>(*value));
     const auto base = value == nullptr ? ir::firstNumber(number) : std::nullopt;
+    // What a sum is simplified to counts from another number: 2447 of `#[2500+#19-53]`.
+    const auto written = value == nullptr ? ir::firstNumber(store.number) : std::nullopt;
+    if (written && stdlib::isOfOffsets(state_.control, *written)) return machineText(state_, number, origin);
     if (base && (state_.control.isCommon(*base) || stdlib::isOfOffsets(state_.control, *base) ||
                  isSettable(state_.control, *base) || isSettable(state_.control, *base + 1))) {
       warnOfReach(*base, origin);

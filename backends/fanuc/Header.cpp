@@ -254,7 +254,9 @@ private:
   void alarms() {
     for (const AlarmText& alarm : state_.alarms)
       out_.comment("ALARM " + std::to_string(alarm.number) + " " +
-                       (alarm.full.empty() ? alarm.shown : alarm.full),
+                       (!alarm.full.empty()    ? alarm.full
+                        : !alarm.shown.empty() ? alarm.shown
+                                               : "WITHOUT A TEXT"),
                    origin("header"));
   }
 

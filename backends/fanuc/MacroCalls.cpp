@@ -49,7 +49,11 @@ void order(std::vector<CallWord>& arguments, const std::string& addresses) {
     if (isIjk(argument)) argument = *next++;
 }
 
-Form formOf(const State& state, const stdlib::MacroArgument& argument) {
+Form formOf(const State& state, const stdlib::MacroArgument& argument, const ir::ExpressionPtr& value) {
+  const double* const known = value == nullptr ? nullptr : ir::constantValue(value);
+  if (known != nullptr && argument.role == stdlib::ArgumentRole::System &&
+      stdlib::extendedSystem(argument, *known) != 0 && *known != std::trunc(*known))
+    return Form::Length; // S154.01
   if (!argument.selector && argument.role != stdlib::ArgumentRole::System) return Form::Length;
   // Without a point a letter that counts lengths would count least increments.
   return argument.point || state.control.isLength(argument.letter) ? Form::Selector : Form::Whole;
@@ -74,8 +78,8 @@ void writeCall(State& state, const MacroCall& call, const ir::Origin& origin) {
   }
   std::vector<CallWord> arguments;
   for (const GivenArgument& one : call.arguments)
-    arguments.push_back({one.argument->letter,
-                         word(state, one.argument->letter, one.value, formOf(state, *one.argument), origin)});
+    arguments.push_back({one.argument->letter, word(state, one.argument->letter, one.value,
+                                                    formOf(state, *one.argument, one.value), origin)});
   if (!state.failed) refuseMissing(state, state.macros, call, origin.range());
   if (state.failed) return;
   if (call.endsAtSurface)
@@ -143,7 +147,10 @@ public:
       guardSystem(state_, measure_.setting->system, origin_,
                   values.setsSystem ? extendedSystems(state_, signature_) : ExtendedSystems());
     keepPositions(state_, origin_);
-    writeCall(state_, macroCall(signature_, measure_, values), origin_);
+    ir::Measure sent = measure_;
+    if (sent.setting && values.setsSystem)
+      sent.setting->system = systemForCall(state_, sent.setting->system, signature_, origin_);
+    writeCall(state_, macroCall(signature_, sent, values), origin_);
     if (state_.failed) return;
     reportSearch();
     keepResults(state_, origin_);
@@ -327,6 +334,8 @@ void writeCycle(State& state, const ir::CallCycle& given, const ir::Origin& orig
     guardSystem(state, cycle.setting->system, origin,
                 values.setsSystem ? extendedSystems(state, *signature) : ExtendedSystems());
   }
+  if (cycle.setting && values.setsSystem)
+    cycle.setting->system = systemForCall(state, cycle.setting->system, *signature, origin);
   const MacroCall call = macroCall(*signature, cycle, values);
   for (const std::string& parameter : call.notTaken) {
     if (stdlib::isPrintout(parameter)) {

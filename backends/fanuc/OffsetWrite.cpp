@@ -66,9 +66,11 @@ ir::ResultName positionOf(ir::Axis axis) {
 }
 
 bool names(double number, const ExtendedSystems& extended) {
-  const bool within = (number >= kFirstSystem && number <= kLastSystem) ||
-                      (extended.first != 0 && number >= extended.first && number <= extended.last);
-  return within && number == std::trunc(number);
+  constexpr double kSame = 1e-6;
+  if (number >= kFirstSystem && number <= kLastSystem) return number == std::trunc(number);
+  if (extended.first == 0 || number < extended.first - kSame || number > extended.last + kSame) return false;
+  const double steps = (number - extended.first) / extended.step;
+  return std::abs(steps - std::round(steps)) <= kSame / extended.step;
 }
 
 // Other values of the arguments: the defaults, and some that differ.
@@ -263,16 +265,74 @@ bool knownAtEntry(const State& state, const ir::ExpressionPtr& value) {
   });
 }
 
+namespace {
+
+const stdlib::MacroArgument* systemArgument(const stdlib::MacroSignature& signature) {
+  for (const stdlib::MacroArgument& argument : signature.arguments)
+    if (argument.role == stdlib::ArgumentRole::System && argument.extendedFirst != 0) return &argument;
+  return nullptr;
+}
+
+// How the macros of the source name systems beyond G59; nullptr: as those of the target, or not at all.
+const stdlib::MacroArgument* sourceSystems(const State& state, const stdlib::MacroArgument& target) {
+  if (state.options.source == nullptr) return nullptr;
+  for (const stdlib::MacroSignature& signature : state.options.source->signatures)
+    if (const stdlib::MacroArgument* source = systemArgument(signature))
+      return source->extendedFirst == target.extendedFirst && source->extendedStep == target.extendedStep
+                 ? nullptr
+                 : source;
+  return nullptr;
+}
+
+} // namespace
+
 ExtendedSystems extendedSystems(const State& state, const stdlib::MacroSignature& signature) {
   const stdlib::SystemVariables& v = state.control.variables;
-  if (state.options.foreignMacros || !v.extendedX) return {};
-  for (const stdlib::MacroArgument& argument : signature.arguments) {
-    if (argument.role != stdlib::ArgumentRole::System || argument.extendedFirst == 0) continue;
-    const std::uint32_t last = std::min(
-        argument.extendedLast, argument.extendedFirst + static_cast<std::uint32_t>(v.extendedCount) - 1);
-    return {argument.extendedFirst + kFirstSystem - 1, last + kFirstSystem - 1};
+  const stdlib::MacroArgument* const target = systemArgument(signature);
+  if (state.options.foreignMacros || !v.extendedX || target == nullptr) return {};
+  // As the source counts them.
+  const stdlib::MacroArgument* const source = sourceSystems(state, *target);
+  const stdlib::MacroArgument& counted = source != nullptr ? *source : *target;
+  const auto most = [](const stdlib::MacroArgument& one) {
+    return stdlib::extendedSystem(one, one.extendedLast);
+  };
+  const std::uint32_t count =
+      std::min({most(*target), most(counted), static_cast<std::uint32_t>(v.extendedCount)});
+  if (count == 0) return {};
+  return {counted.extendedFirst + kFirstSystem - 1, stdlib::extendedNumber(counted, count) + kFirstSystem - 1,
+          counted.extendedStep};
+}
+
+ir::ExpressionPtr systemForCall(State& state, const ir::ExpressionPtr& system,
+                                const stdlib::MacroSignature& signature, const ir::Origin& origin) {
+  const stdlib::MacroArgument* const target = systemArgument(signature);
+  const stdlib::MacroArgument* const source = target == nullptr ? nullptr : sourceSystems(state, *target);
+  if (source == nullptr || state.options.foreignMacros || !state.control.variables.extendedX) return system;
+  const ir::ExpressionPtr given = tidy(minus(system, ir::constant(kFirstSystem - 1)));
+  if (const double* value = ir::constantValue(given)) {
+    const std::uint32_t n = stdlib::extendedSystem(*source, *value);
+    return n == 0 ? system
+                  : ir::constant(stdlib::extendedNumber(*target, n) + kFirstSystem - 1, system->range);
   }
-  return {};
+  if (confinedTo(state, system, kFirstSystem, kLastSystem)) return system;
+  const std::uint32_t helper = state.helper();
+  if (helper == 0) {
+    state.refuse<diag::TooManyLocals>(state.cycle.range, "the work system", state.control.locals);
+    return system;
+  }
+  const std::string left = "#" + std::to_string(helper);
+  const ir::ExpressionPtr named = systemVariable(static_cast<int>(helper));
+  state.sheet.add(left + "=" + valueText(state, given, origin), origin);
+  const ir::ExpressionPtr there = plus(
+      ir::constant(target->extendedFirst),
+      ir::binary(target->extendedStep < source->extendedStep ? ir::BinaryOp::Divide : ir::BinaryOp::Multiply,
+                 minus(named, ir::constant(source->extendedFirst)),
+                 ir::constant(target->extendedStep < source->extendedStep
+                                  ? source->extendedStep / target->extendedStep
+                                  : target->extendedStep / source->extendedStep)));
+  doIf(state, ir::compare(ir::Relation::Greater, named, ir::constant(kLastSystem - kFirstSystem + 1)),
+       left + "=" + valueText(state, there, origin), origin);
+  return plus(named, ir::constant(kFirstSystem - 1));
 }
 
 void guardSystem(State& state, const ir::ExpressionPtr& given, const ir::Origin& origin,
@@ -356,8 +416,15 @@ void writeSystemAlarm(State& state, const NamedSystem& which, const ir::Origin& 
       alarmIf(state, ir::compare(ir::Relation::Greater, system, ir::constant(which.extended.last)), text,
               origin);
   }
-  alarmIf(state, ir::compare(ir::Relation::NotEqual, system, ir::unary(ir::UnaryOp::Truncate, system)), text,
-          origin);
+  const ir::ConditionPtr broken =
+      ir::compare(ir::Relation::NotEqual, system, ir::unary(ir::UnaryOp::Truncate, system));
+  // S154.01: of the first six alone.
+  alarmIf(state,
+          which.extended.step < 1
+              ? ir::join(ir::Connective::And,
+                         ir::compare(ir::Relation::LessEqual, system, ir::constant(kLastSystem)), broken)
+              : broken,
+          text, origin);
   state.releaseHelpers();
 }
 

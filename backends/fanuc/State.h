@@ -43,7 +43,7 @@ struct Guards {
 // An alarm of ours or of the source.
 struct AlarmText {
   std::uint32_t number = 0;
-  std::string shown; // what the control shows
+  std::string shown; // what the control shows; "": its number alone, as in the source
   std::string full;  // "" where `shown` says all
 };
 
@@ -72,9 +72,9 @@ struct CopiedModes {
   std::vector<std::string> inForce;
 };
 
-// Numbers beside 54 to 59 that name a work system in a call; 0: none do.
+// Numbers beside 54 to 59 that name a work system in a call, a step apart; 0: none do.
 struct ExtendedSystems {
-  double first = 0, last = 0;
+  double first = 0, last = 0, step = 1;
 };
 struct NamedSystem {
   ir::ExpressionPtr number;
@@ -280,6 +280,10 @@ bool knownAtEntry(const State& state, const ir::ExpressionPtr& value);
 // Numbers with which a macro of the set that the source calls sets G54.1 P1 and following, counted as those
 // of the system are; none where another set is called.
 ExtendedSystems extendedSystems(const State& state, const stdlib::MacroSignature& signature);
+// The number of the system as the macro of the target reads it, where that of the source reads others beyond
+// G59 (S101, S154.01). What is computed goes into a local before the call.
+ir::ExpressionPtr systemForCall(State& state, const ir::ExpressionPtr& system,
+                                const stdlib::MacroSignature& signature, const ir::Origin& origin);
 // Makes sure that there is such a tool offset. false: refused.
 bool guardTool(State& state, const ir::ExpressionPtr& tool, const ir::Origin& origin);
 // `environment` with what locals have that the checks alone assign, and once.

@@ -206,8 +206,7 @@ bool MacroBlocks::endsBranch(const ir::CycleStatement& statement, const ir::Opaq
   const ir::ProgramFlow flow = ir::flowOf(body);
   std::vector<bool> runs(body.size() + 1);
   for (std::size_t i = 0; i < body.size(); ++i)
-    runs[i] = isMacro(state_, body[i]) || std::holds_alternative<ir::Move>(body[i].node) ||
-              std::holds_alternative<ir::Measure>(body[i].node);
+    runs[i] = isMacro(state_, body[i]) || movesProbe(body[i]);
   const std::vector<bool> leads = ir::leadingTo(runs, flow);
   const auto at = static_cast<std::size_t>(&statement - body.data());
   return at < body.size() && std::none_of(flow.next[at].begin(), flow.next[at].end(),

@@ -163,6 +163,12 @@ std::vector<const Routine*> printingRoutines(const Program& program, const stdli
     if (std::find(routines.begin(), routines.end(), branch.routine) != routines.end()) continue;
     if (prints(branch.body(), program, keywords)) routines.push_back(branch.routine);
   }
+  if (!routines.empty()) return routines;
+  // Its branch only sets a flag, and what prints for it is the ELSE of the others, or asks for the flag.
+  for (const BranchRef& branch : branchesOf(program, cycleId))
+    if (std::find(routines.begin(), routines.end(), branch.routine) == routines.end() &&
+        prints(branch.routine->body, program, keywords))
+      routines.push_back(branch.routine);
   return routines;
 }
 

@@ -47,7 +47,8 @@ std::vector<BranchRef> branchesOf(const Program& program, std::string_view cycle
 bool prints(const std::vector<Statement>& statements, const Program& program,
             const stdlib::ComPostKeywords& keywords);
 
-// The routines with a branch for the cycle that prints, in source order.
+// The routines with a branch for the cycle that prints, in source order; where none prints, those that test
+// the cycle and print elsewhere.
 std::vector<const Routine*> printingRoutines(const Program& program, const stdlib::ComPostKeywords& keywords,
                                              std::string_view cycleId);
 

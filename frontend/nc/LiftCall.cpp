@@ -210,12 +210,11 @@ bool Lifter::cycle(const stdlib::CallReading& reading, const std::vector<const W
   return true;
 }
 
-// 101 and following are G54.1 P1 and following: the control has that one.
+// 101 and following, or 154.01, are G54.1 P1 and following: the control has that one.
 bool Lifter::isExtended(const stdlib::MacroArgument& argument, double number) const {
   const stdlib::SystemVariables& v = context_.control.variables;
-  const double entry = number - argument.extendedFirst + 1;
-  return argument.extendedFirst != 0 && number <= argument.extendedLast && v.extendedX && entry >= 1 &&
-         entry <= v.extendedCount && number == std::trunc(number);
+  const std::uint32_t entry = stdlib::extendedSystem(argument, number);
+  return entry != 0 && v.extendedX && static_cast<int>(entry) <= v.extendedCount;
 }
 
 // The G number of the system that `read`, the argument, names. What stands for an extended one is counted on

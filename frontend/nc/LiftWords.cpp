@@ -268,9 +268,13 @@ bool Lifter::dwell() {
   if ((seconds == nullptr) == (milliseconds == nullptr)) return refuse<diag::DwellForm>(block_.range);
   const Word& word = seconds == nullptr ? *milliseconds : *seconds;
   if (!inRange(word, "a dwell", true)) return false;
+  // P1. is a second there, and what a computed P counts in no source.
+  const bool byP = context_.control.dwellLetter == 'P';
+  const std::optional<double> literal = byP && word.value ? knownNumber(*word.value) : std::nullopt;
+  if (byP && (seconds != nullptr || !literal)) return refuse<diag::DwellForm>(block_.range);
   ir::ExpressionPtr read = value(word, {ir::Kind::Number, seconds != nullptr});
   if (!read) return false;
-  if (seconds == nullptr) {
+  if (seconds == nullptr && !(byP && ir::numberWithoutPoint(rawValue(word)) == nullptr)) {
     if (const double* constant = ir::constantValue(read))
       read = ir::constant(*constant / 1000, word.range);
     else
@@ -282,8 +286,13 @@ bool Lifter::dwell() {
 
 // The program gets its modes from a caller: a copied move needs its own as a translated one does.
 bool Lifter::knownModes(const Plan& plan) {
-  if (plan.anyEffect || !std::all_of(codes_.begin(), codes_.end(),
-                                     [](const Code& code) { return leavesCoordinates(code.info); }))
+  // G53 takes the motion in force, too.
+  const bool machine = std::any_of(codes_.begin(), codes_.end(), [](const Code& code) {
+    return code.info != nullptr && code.info->function == Function::MachineCoordinates;
+  });
+  if (plan.anyEffect || (!machine && !std::all_of(codes_.begin(), codes_.end(), [](const Code& code) {
+        return leavesCoordinates(code.info);
+      })))
     return true;
   const auto coordinate = std::find_if(block_.words.begin(), block_.words.end(), [](const Word& word) {
     return std::string_view("XYZABCUVW").find(word.address) != std::string_view::npos;
@@ -297,7 +306,7 @@ bool Lifter::knownModes(const Plan& plan) {
   if (!plan.motion && !context_.state.motion)
     return refuse<diag::ModeNotKnown>(coordinate->range, wordText(*coordinate), "G0 or G1",
                                       code ? "G0 " + plan.opaque : "G0 or G1");
-  if (!has(ir::Mode::Absolute, ir::Mode::Incremental) && !context_.state.absolute)
+  if (!machine && !has(ir::Mode::Absolute, ir::Mode::Incremental) && !context_.state.absolute)
     return refuse<diag::ModeNotKnown>(coordinate->range, wordText(*coordinate), "G90 or G91", "G90 or G91");
   return true;
 }

@@ -5,7 +5,7 @@ namespace dotek::lint::rule {
 namespace {
 
 void checkBlock(const ProgBlock& block, const Project& project, Report& report) {
-  const std::vector<ProgWord> words = wordsOf(block, project.form);
+  const std::vector<ProgWord> words = wordsOf(block, project.form, true);
   const std::uint32_t program = macroCalled(words);
   if (program == 0) return;
   for (const stdlib::MacroSet& set : project.macroSets) {

@@ -242,7 +242,13 @@ bool Machine::dwell(const NcWords& w) {
   if (given > 1 || (w.present & kAxisBits & ~ir::addressBits("XU")) != 0)
     return inconclusive("a dwell takes one of P, X and U", 'G');
   double seconds = 0;
-  if (w.has('P')) {
+  const bool byP = own == 0 && control_->dwellLetter == 'P';
+  if (byP && given == 1 && !w.has('P'))
+    return inconclusive("a dwell takes P on this control, and no source has another address", 'G');
+  if (byP && w.has('P') && (w.pointed & ir::addressBit('P')) != 0) {
+    seconds = w.of('P');
+    if (!(seconds >= 0)) return inconclusive("a dwell is not below 0", 'P');
+  } else if (w.has('P')) {
     const std::optional<std::uint32_t> milliseconds = whole(w, 'P');
     if (!milliseconds) return inconclusive("a dwell counts whole milliseconds here", 'P');
     seconds = *milliseconds / 1000.0;

@@ -236,7 +236,12 @@ private:
     if (const auto* nc = std::get_if<ir::NcBlock>(&statement.node)) return block(at, *nc, values);
     if (const auto* call = std::get_if<ir::Call>(&statement.node)) {
       forgetPlaces(values, since);
-      forgetVariables(values, since, call->kind != ir::CallKind::Macro);
+      // What the program itself has written it keeps over a macro that leaves it alone: else it is lost to
+      // the condition as well.
+      if (call->kind == ir::CallKind::Macro)
+        values.commonSince = since;
+      else
+        forgetVariables(values, since, true);
       return;
     }
     const auto* store = std::get_if<ir::Store>(&statement.node);
@@ -333,7 +338,8 @@ private:
   // Before `at` the machine is where the skip move ended, or moves that name no axis of it followed.
   std::optional<bool> alarmsAtEnd(std::size_t skip, std::size_t at) const {
     const auto* branch = std::get_if<ir::Branch>(&body_[at].node);
-    if (branch == nullptr || !branch->condition || !facts_[at] || facts_[at]->skip != skip)
+    // After a call the end is known of the variable alone that keeps it.
+    if (branch == nullptr || !branch->condition || !facts_[at] || facts_[at]->skip.value_or(skip) != skip)
       return std::nullopt;
     const auto label = labels_.find(branch->target);
     if (label == labels_.end()) return std::nullopt;

@@ -137,10 +137,10 @@ std::optional<std::uint32_t> VendorRun::offsetVariable(std::uint32_t system, boo
 
 std::optional<Machine::WorkSystem> VendorRun::systemGiven() const {
   const stdlib::MacroArgument& chosen = *argument(Role::System);
+  if (const std::uint32_t n = stdlib::extendedSystem(chosen, *value(Role::System)); n != 0)
+    return Machine::WorkSystem{n, true};
   const auto number = whole(*value(Role::System));
   if (!number) return std::nullopt;
-  if (chosen.extendedFirst != 0 && *number >= chosen.extendedFirst && *number <= chosen.extendedLast)
-    return Machine::WorkSystem{*number - chosen.extendedFirst + 1, true};
   const std::uint32_t first = firstNumber(chosen);
   if (*number < first || *number >= first + kSystems) return std::nullopt;
   return Machine::WorkSystem{*number - first, false};
@@ -221,10 +221,17 @@ void VendorRun::leaveUnstated(std::uint32_t variable, std::optional<Output> mean
   std::uint64_t mixed = (std::uint64_t{memory_.measured} << 32U | place) * kMix;
   // Another one with other values of the call, coarser than their last digits.
   std::uint64_t call = memory_.measured;
-  for (const double local : locals_)
-    if (!isNull(local) && !isUnknown(local) && std::abs(local) < 1e6)
-      for (std::uint64_t* one : {&mixed, &call})
-        *one = (*one ^ static_cast<std::uint64_t>(std::llround(local * 8))) * kMix;
+  const stdlib::MacroArgument* const system = argument(Role::System);
+  const std::size_t ofSystem = system == nullptr ? 0 : stdlib::localOf(system->letter);
+  for (std::size_t i = 0; i < locals_.size(); ++i) {
+    double local = locals_[i];
+    if (isNull(local) || isUnknown(local) || std::abs(local) >= 1e6) continue;
+    // Systems beyond G59 are the same ones by whatever number a control has for them.
+    if (i != 0 && i == ofSystem)
+      if (const std::uint32_t n = stdlib::extendedSystem(*system, local); n != 0) local = 1000 + n;
+    for (std::uint64_t* one : {&mixed, &call})
+      *one = (*one ^ static_cast<std::uint64_t>(std::llround(local * 8))) * kMix;
+  }
   mixed ^= mixed >> 29U;
   // Programs ask for 0 as for nothing found wrong.
   const bool none = (mixed >> 40U) % 3 == 0;

@@ -81,6 +81,18 @@ TEST_CASE("fanuc copied: a rotation by what was measured is what the cycle leave
   CHECK(turned(number(30), false).codes() == Codes{"mode-not-restored"});
 }
 
+TEST_CASE("fanuc copied: a control whose dwell takes P gets whole milliseconds") {
+  const auto dwell = [](ir::ExpressionPtr seconds, const char* control) {
+    Maker cycle;
+    cycle.add(ir::Dwell{std::move(seconds)});
+    return Target("inspection-plus", control).emit(cycle.cycle);
+  };
+  CHECK(dwell(number(0.5), "fanuc-31i-b").holds("G4 X0.5"));
+  CHECK(dwell(number(0.5), "haas-ngc").holds("G4 P500"));
+  CHECK(dwell(ir::machineVariable(number(500)), "fanuc-31i-b").holds("G4 X#500"));
+  CHECK(dwell(ir::machineVariable(number(500)), "haas-ngc").codes() == Codes{"dwell-computed"});
+}
+
 TEST_CASE("fanuc copied: what ends as the caller provides it is not refused") {
   CHECK(codesOf({"G68 X0. Y0. R30.", "G69"}).empty());
   CHECK(codesOf({"G51 X0. Y0. P2000", "G50"}).empty());
@@ -108,6 +120,9 @@ TEST_CASE("fanuc copied: G10 with other words than both controls are known to re
   };
   CHECK(toAnother("G10 L2 P2 Z5.", false).codes().empty());
   CHECK(toAnother("G10 L20 P2 Y5.", false).codes().empty());
+  CHECK(toAnother("G90 G10 L2 P2 Z5.", false).codes().empty());
+  CHECK(toAnother("G91 G10 L2 P2 Z5.", false).codes().empty());
+  CHECK(toAnother("G17 G10 L2 P2 Z5.", false).codes() == Codes{"data-input-refused"});
   CHECK(toAnother("G10 L11 P2 R5.", false).codes().empty());
   const Emission computed = toAnother("G10 L2 P2 Y5.", true);
   CHECK(computed.codes() == Codes{"data-input-refused"});

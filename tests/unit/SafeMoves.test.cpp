@@ -33,6 +33,14 @@ std::string safeIn(const std::string& body) {
 
 } // namespace
 
+TEST_CASE("safe moves: the contact is asked for after a macro that leaves the variable alone") {
+  const std::string touch = "#10=#5041\nG90G31X[#10+20.]F200.\n#530=#5061\n",
+                    none = "IF[#530GE#10+19.99]THEN#3000=5(NONE)\n";
+  CHECK(safeIn(touch + none) == "");
+  CHECK(safeIn(touch + "G65P9833\n" + none) == "");
+  CHECK(safeIn(touch + "M98P9833\n" + none) == "2"); // may write the variable, too
+}
+
 TEST_CASE("safe moves: the IF alarms with a contact, that of a touch without one") {
   const std::string from = "#10=#5041\n", there = "G31X[#10+20.]F200.\n", down = "G90G31Z#26F1000\n";
   CHECK(safeIn(from + there + "IF[#5061LT#10+19.99]GOTO9\n") == "2");

@@ -1,6 +1,8 @@
 // Where cycles of tests/shops stop: with which text, after what, and where they try again.
 #include "tests/unit/ShopRuns.h"
 
+#include <algorithm>
+
 namespace dotek::tests {
 
 namespace {
@@ -37,6 +39,55 @@ TEST_CASE("verify: coordinates that the cycle leaves turned are turned alike") {
     CHECK(differs(edge, replaced(good, line, replaced(line, " R" + angle, " R-" + angle))));
     CHECK(differs(edge, replaced(good, line, replaced(line, " X#", " Y#"))));
     CHECK(differs(edge, replaced(good, line, line + "\nG69")));
+  }
+}
+
+TEST_CASE("verify: the offset of the fourth axis is compared") {
+  const Shop table{"szabo", "SZ.Asztal.Szog", "meres", "fanuc", "inspection-plus", "fanuc-0i-md"};
+  const std::string good = converted(table);
+  CHECK_MESSAGE(agrees(verified(table)), verified(table));
+  CHECK(differs(table, replaced(good, "]+#537", "]-#537")));
+  const std::size_t at = good.find("\n#[5204");
+  REQUIRE(at != std::string::npos);
+  CHECK(differs(table, replaced(good, good.substr(at, good.find('\n', at + 1) - at), "")));
+}
+
+TEST_CASE("verify: work offsets beyond G59 keep the numbers of the source in the argument") {
+  for (const char* control : {"haas-ngc", "fanuc-31i-b"}) {
+    const Shop slot{"vandoorn", "VD_SLEUF_G154", "meten", "fanuc", "inspection-plus", control};
+    CHECK_MESSAGE(agrees(verified(slot)), verified(slot));
+  }
+  const Shop bore{"szabo", "SZ.Furat.Osztaly", "meres", "fanuc", "inspection-plus", "haas-ngc"};
+  CHECK_MESSAGE(agrees(verified(bore)), verified(bore));
+  const std::string good = converted(bore);
+  CHECK_MESSAGE(good.find("154.01") != std::string::npos, good);
+  CHECK(differs(bore, replaced(good, "154.01", "154.02")));
+}
+
+TEST_CASE("verify: a Haas dwells by P, and another control has no G103") {
+  const Shop here{"vandoorn", "VD_HOEK_BUITEN", "meten", "fanuc", "inspection-plus", "haas-ngc"};
+  const std::string own = converted(here);
+  CHECK_MESSAGE(own.find("G4 P1\n") != std::string::npos, own);
+  CHECK_MESSAGE(agrees(verified(here)), verified(here));
+  const Shop there{"vandoorn", "VD_HOEK_BUITEN", "meten", "fanuc", "inspection-plus", "fanuc-31i-b"};
+  const std::string other = converted(there);
+  CHECK_MESSAGE(other.find("G103") == std::string::npos, other);
+  driver::ConvertOptions options;
+  take(there, options);
+  const driver::Outcome outcome = driver::convert(options);
+  CHECK(std::any_of(outcome.diagnostics.all().begin(), outcome.diagnostics.all().end(),
+                    [](const Diagnostic& one) { return one.code == "read-ahead-left-out"; }));
+  CHECK_MESSAGE(agrees(verified(there)), verified(there));
+}
+
+TEST_CASE("verify: the offset before and after, signed deviations, a contact asked for late") {
+  for (const Shop& shop :
+       {Shop{"irunza", "TI.Cara.Lado", "palpador", "fanuc", "dotek", "fanuc-0i-md"},
+        Shop{"szabo", "SZ.Furat.Osztaly", "meres", "fanuc", "inspection-plus", "fanuc-31i-b"},
+        Shop{"nordlund", "ND.Top.Gentag", "taster", "fanuc", "dotek", "fanuc-0i-md"},
+        Shop{"nordlund", "ND.Emne.Findes", "taster", "fanuc", "inspection-plus", "fanuc-31i-b"}}) {
+    const std::string said = verified(shop);
+    CHECK_MESSAGE(("\n" + said).find("\nAGREES") != std::string::npos, said);
   }
 }
 
