@@ -4,6 +4,8 @@
 #include "ir/Fold.h"
 #include "project/CycleCatalogue.h"
 #include "project/CycleFiles.h"
+#include "support/Decimal.h"
+#include "support/messages/Commands.h"
 
 #include <algorithm>
 #include <cmath>
@@ -142,7 +144,8 @@ std::string whyNotOffered(const std::vector<verify::DrawField>& fields, const ve
   return "";
 }
 
-void confineToLists(ir::Cycle& cycle, const std::map<ir::VariableId, std::vector<DialogChoice>>& choices) {
+void confineToLists(ir::Cycle& cycle, const std::map<ir::VariableId, std::vector<DialogChoice>>& choices,
+                    Diagnostics& diagnostics) {
   constexpr std::size_t kFew = 3; // values
   for (const auto& [id, list] : choices) {
     std::set<double> values;
@@ -150,6 +153,12 @@ void confineToLists(ir::Cycle& cycle, const std::map<ir::VariableId, std::vector
       values.insert(one.value);
     if (!ir::uses(cycle, id) || !takesNoOther(cycle.variable(id).kind, {values.begin(), values.end()}))
       continue;
+    ir::Variable& variable = cycle.variables[id];
+    if (variable.defaultValue && !values.contains(*variable.defaultValue)) {
+      diagnostics.report<diag::DefaultTurnedAway>(
+          variable.range, variable.name, numberText(*variable.defaultValue), notInList(variable.name));
+      variable.defaultValue.reset();
+    }
     const ir::ExpressionPtr value = ir::variable(id);
     const double least = *values.begin(), most = *values.rbegin();
     if (values.size() > kFew && most - least + 1 == static_cast<double>(values.size()) && isWhole(least)) {

@@ -47,7 +47,9 @@ std::vector<double> besideList(const verify::DrawField& field);
 // none.
 std::string whyNotOffered(const std::vector<verify::DrawField>& fields, const verify::Case& drawn);
 // The checks of the cycle reject what a list does not offer, as its dialog does; that of a work offset which
-// offers all six systems is left to what is asked of each. The body has to read the parameter.
-void confineToLists(ir::Cycle& cycle, const std::map<ir::VariableId, std::vector<DialogChoice>>& choices);
+// offers all six systems is left to what is asked of each. The body has to read the parameter. A default that
+// is none of them is reported and is none any more.
+void confineToLists(ir::Cycle& cycle, const std::map<ir::VariableId, std::vector<DialogChoice>>& choices,
+                    Diagnostics& diagnostics);
 
 } // namespace dotek::targets

@@ -402,19 +402,22 @@ void writeSystemAlarm(State& state, const NamedSystem& which, const ir::Origin& 
       return;
     }
   const bool more = which.extended.first != 0;
+  // S154.01 is no number that a control holds exactly.
+  const double beside = which.extended.step < 1 ? which.extended.step / 2 : 0;
   const std::string_view text = more ? "NO SUCH WORK OFFSET" : "WORK OFFSET NOT 54 TO 59";
   if (use == nullptr || state.cycle.variable(use->variable).role == ir::Role::Local ||
       !checksConfine(state, use->variable)) {
     alarmIf(state, ir::compare(ir::Relation::Less, system, ir::constant(kFirstSystem)), text, origin);
     const ir::ConditionPtr above = ir::compare(ir::Relation::Greater, system, ir::constant(kLastSystem));
-    alarmIf(state,
-            more ? ir::join(ir::Connective::And, above,
-                            ir::compare(ir::Relation::Less, system, ir::constant(which.extended.first)))
-                 : above,
-            text, origin);
+    alarmIf(
+        state,
+        more ? ir::join(ir::Connective::And, above,
+                        ir::compare(ir::Relation::Less, system, ir::constant(which.extended.first - beside)))
+             : above,
+        text, origin);
     if (more)
-      alarmIf(state, ir::compare(ir::Relation::Greater, system, ir::constant(which.extended.last)), text,
-              origin);
+      alarmIf(state, ir::compare(ir::Relation::Greater, system, ir::constant(which.extended.last + beside)),
+              text, origin);
   }
   const ir::ConditionPtr broken =
       ir::compare(ir::Relation::NotEqual, system, ir::unary(ir::UnaryOp::Truncate, system));

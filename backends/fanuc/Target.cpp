@@ -71,7 +71,7 @@ public:
       for (const auto& [name, number] : options_.results)
         session_.diagnostics().report<diag::CycleResultUnknown>({}, name, folder.name, "");
     const auto lists = dialogChoices(folder, lowered.cycle, session_.sources());
-    confineToLists(lowered.cycle, lists);
+    confineToLists(lowered.cycle, lists, session_.diagnostics());
     backends::refuseNoLength(lowered.cycle, lowered.fixed, *inputs.sourceControl, *inputs.control,
                              session_.diagnostics());
     ir::fold(lowered.cycle, lowered.fixed);

@@ -156,7 +156,7 @@ private:
     const bool foreign = macros != lowered.macros && lowered.macros != nullptr;
     if (macros == nullptr) macros = &none;
     const auto lists = dialogChoices(folder, lowered.cycle, session_.sources());
-    confineToLists(lowered.cycle, lists);
+    confineToLists(lowered.cycle, lists, session_.diagnostics());
     backends::refuseNoLength(lowered.cycle, lowered.fixed, *inputs.sourceControl,
                              inputs.control ? *inputs.control : *inputs.sourceControl,
                              session_.diagnostics());

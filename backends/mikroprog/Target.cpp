@@ -71,7 +71,7 @@ std::optional<MikroprogProgram> writeMikroprog(const CycleFolder& folder, Lowere
   Diagnostics& diagnostics = session.diagnostics();
   ir::Cycle& cycle = lowered.cycle;
   if (writing.cycleFile) prepareCycle(lowered, diagnostics);
-  confineToLists(cycle, dialogChoices(folder, cycle, session.sources()));
+  confineToLists(cycle, dialogChoices(folder, cycle, session.sources()), session.diagnostics());
   for (const std::string& host : mikroprog::missingHosts(cycle, writing.control, writing.hosts)) {
     const auto info = std::find_if(std::begin(stdlib::kHostInputs), std::end(stdlib::kHostInputs),
                                    [&](const stdlib::HostInput& one) { return one.name == host; });

@@ -286,13 +286,8 @@ bool Lifter::dwell() {
 
 // The program gets its modes from a caller: a copied move needs its own as a translated one does.
 bool Lifter::knownModes(const Plan& plan) {
-  // G53 takes the motion in force, too.
-  const bool machine = std::any_of(codes_.begin(), codes_.end(), [](const Code& code) {
-    return code.info != nullptr && code.info->function == Function::MachineCoordinates;
-  });
-  if (plan.anyEffect || (!machine && !std::all_of(codes_.begin(), codes_.end(), [](const Code& code) {
-        return leavesCoordinates(code.info);
-      })))
+  if (plan.anyEffect || !std::all_of(codes_.begin(), codes_.end(),
+                                     [](const Code& code) { return leavesCoordinates(code.info); }))
     return true;
   const auto coordinate = std::find_if(block_.words.begin(), block_.words.end(), [](const Word& word) {
     return std::string_view("XYZABCUVW").find(word.address) != std::string_view::npos;
@@ -306,7 +301,7 @@ bool Lifter::knownModes(const Plan& plan) {
   if (!plan.motion && !context_.state.motion)
     return refuse<diag::ModeNotKnown>(coordinate->range, wordText(*coordinate), "G0 or G1",
                                       code ? "G0 " + plan.opaque : "G0 or G1");
-  if (!machine && !has(ir::Mode::Absolute, ir::Mode::Incremental) && !context_.state.absolute)
+  if (!has(ir::Mode::Absolute, ir::Mode::Incremental) && !context_.state.absolute)
     return refuse<diag::ModeNotKnown>(coordinate->range, wordText(*coordinate), "G90 or G91", "G90 or G91");
   return true;
 }
