@@ -284,13 +284,12 @@ std::vector<ModeInForce> modesInForce(const Control& source, const Control& targ
 
 std::string whyNotPutBack(const Control& control, const Record& ran, const Record* source) {
   const std::set<std::uint32_t> groups = restored(control);
-  const bool turned = ran.turn != std::array<double, 4>{};
   const CodeInfo* plane = control.find(Function::PlaneXY);
   for (std::uint32_t group = 1; group < ran.modalAfter.size(); ++group) {
     const std::uint32_t before = ran.modalBefore[group], after = ran.modalAfter[group];
     if (before == after) continue;
     // Under G68, which stays, no other plane may be chosen.
-    if (turned && plane != nullptr && plane->group == static_cast<int>(group) && after == plane->tenths)
+    if (ran.turn && plane != nullptr && plane->group == static_cast<int>(group) && after == plane->tenths)
       continue;
     if (!groups.contains(group) &&
         (!control.variables.modalFirst || (source != nullptr && source->modalAfter[group] == after)))

@@ -283,7 +283,8 @@ private:
 
   // Coordinates that the source leaves turned: a program does not put them back, and it turns them alike.
   void turn() {
-    const std::array<double, 4>&one = source_.turn, &other = target_.turn;
+    const auto one = source_.turn.value_or(std::array<double, 4>{}),
+               other = target_.turn.value_or(std::array<double, 4>{});
     bool same = std::abs(one[0] - other[0]) <= std::max(rules_.results, rules_.angles);
     // The zero lies the farther away from the centre, the more the angle moves it.
     const double equal = rules_.results + rules_.angles / 57 * std::hypot(one[1], one[2], one[3]);

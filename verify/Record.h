@@ -215,9 +215,9 @@ struct Record {
   std::optional<std::pair<std::size_t, std::size_t>> disturbed;
   // Modal codes by group, times ten, at entry and at the end.
   std::array<std::uint32_t, 32> modalBefore{}, modalAfter{};
-  // What G68 leaves: degrees, and where it takes the zero of the active system, in its coordinates; all 0:
-  // none.
-  std::array<double, 4> turn{};
+  // What G68 leaves: degrees, and where it takes the zero of the active system, in its coordinates; nothing:
+  // it is off.
+  std::optional<std::array<double, 4>> turn = {};
   double feedBefore = 0, feedAfter = 0; // F in force
   // At the end the motion code, or F, is what a macro of the vendor has left.
   bool motionOfMacro = false, feedOfMacro = false;

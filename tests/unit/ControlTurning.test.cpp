@@ -53,8 +53,9 @@ TEST_CASE("a lathe's control: the codes of system A, each fact with its source")
     CHECK_FALSE(fact.grade.empty());
     CHECK_FALSE(fact.source.empty());
   }
-  for (const DataFile* file : DataFiles().list("controls"))
-    if (file->name != "fanuc-0i-tf") CHECK_FALSE(Control::load(DataFiles(), file->name)->turning);
+  const DataFiles data;
+  for (const DataFile* file : data.list("controls"))
+    if (file->name != "fanuc-0i-tf") CHECK_FALSE(Control::load(data, file->name)->turning);
 }
 
 TEST_CASE("[turning] says what is wrong with it") {
