@@ -1,7 +1,6 @@
 #include "stdlib/Control.h"
 #include "stdlib/MacroSet.h"
 
-#include <cmath>
 #include <optional>
 
 namespace dotek::stdlib {
@@ -45,19 +44,6 @@ MacroSet packaged(const MacroSet& set, const MacroPackage& package) {
   for (auto& [number, value] : out.callerValues)
     number = moved(number);
   return out;
-}
-
-std::uint32_t extendedSystem(const MacroArgument& argument, double number) {
-  constexpr double kSame = 1e-6;
-  if (argument.extendedFirst == 0) return 0;
-  const double steps = std::round((number - argument.extendedFirst) / argument.extendedStep);
-  if (steps < 0 || number > argument.extendedLast + kSame) return 0;
-  const bool same = std::abs(argument.extendedFirst + steps * argument.extendedStep - number) <= kSame;
-  return same ? static_cast<std::uint32_t>(steps) + 1 : 0;
-}
-
-double extendedNumber(const MacroArgument& argument, std::uint32_t n) {
-  return argument.extendedFirst + (n - 1) * argument.extendedStep;
 }
 
 } // namespace dotek::stdlib

@@ -1,6 +1,7 @@
 #include "stdlib/MacroSet.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace dotek::stdlib {
 namespace {
@@ -137,6 +138,19 @@ const MacroAlarmInfo* MacroSet::find(MacroAlarm alarm) const {
   const auto at = std::find_if(alarms.begin(), alarms.end(),
                                [&](const MacroAlarmInfo& info) { return info.alarm == alarm; });
   return at == alarms.end() ? nullptr : &*at;
+}
+
+std::uint32_t extendedSystem(const MacroArgument& argument, double number) {
+  constexpr double kSame = 1e-6;
+  if (argument.extendedFirst == 0) return 0;
+  const double steps = std::round((number - argument.extendedFirst) / argument.extendedStep);
+  if (steps < 0 || number > argument.extendedLast + kSame) return 0;
+  const bool same = std::abs(argument.extendedFirst + steps * argument.extendedStep - number) <= kSame;
+  return same ? static_cast<std::uint32_t>(steps) + 1 : 0;
+}
+
+double extendedNumber(const MacroArgument& argument, std::uint32_t n) {
+  return argument.extendedFirst + (n - 1) * argument.extendedStep;
 }
 
 } // namespace dotek::stdlib

@@ -249,15 +249,14 @@ bool isBlock(const ir::CycleStatement& statement) {
                          ir::Jump, ir::Branch, ir::Return, ir::Alarm, ir::Comment> auto&) { return false; });
 }
 
-// A block of one code alone that says how far the source's control reads ahead (G103 of a Haas), and that the
-// target has not. nullptr: it is another one.
-const stdlib::CodeInfo* readAheadLimit(const State& state, const ir::OpaqueBlock& block, bool& limits) {
+// The only code of a block, where it limits how far the source's control reads ahead (G103 of a Haas) and the
+// target does not support it. nullptr: another block.
+const stdlib::CodeInfo* readAheadLimit(const State& state, const ir::OpaqueBlock& block) {
   const stdlib::Control& from = state.options.sourceControl;
   const stdlib::CodeInfo* out = nullptr;
   for (const ir::Word& word : block.words) {
     if (word.address == 'N') continue;
     const double* number = word.value == nullptr ? nullptr : ir::constantValue(word.value);
-    limits = limits || word.address == 'P';
     if (word.address == 'P' && number != nullptr) continue;
     if (word.address != 'G' || number == nullptr || *number < 0 || *number > 9999) return nullptr;
     const auto tenths = static_cast<std::uint32_t>(std::lround(*number * 10));
@@ -273,11 +272,13 @@ const stdlib::CodeInfo* readAheadLimit(const State& state, const ir::OpaqueBlock
 }
 
 void writeOpaque(State& state, const ir::OpaqueBlock& block, const ir::Origin& origin) {
-  bool limits = false;
-  if (const stdlib::CodeInfo* code = readAheadLimit(state, block, limits)) {
+  if (const stdlib::CodeInfo* code = readAheadLimit(state, block)) {
+    // Without P it lifts the limit.
+    const bool limits = std::any_of(block.words.begin(), block.words.end(),
+                                    [](const ir::Word& word) { return word.address == 'P'; });
     state.diagnostics.report<diag::ReadAheadLeftOut>(
         origin.range(), codeText(*code), state.options.sourceControl.title, state.control.title,
-        limits ? "a block that waits is in its place" : "it is left out");
+        limits ? "a block that waits replaces it" : "it is left out");
     if (limits) writeWait(state, origin);
     return;
   }

@@ -3,7 +3,6 @@
 #include "support/Decimal.h"
 
 #include <algorithm>
-#include <map>
 #include <string>
 #include <vector>
 

@@ -19,7 +19,7 @@ void check(const Project& project, Report& report) {
       const auto number = gibbs::plainValue(*control.arguments[0]);
       if (!number || (*number >= 1 && *number <= made && *number == std::trunc(*number))) continue;
       report.at(control.arguments[0]->range,
-                "there is no list {}: this dialog makes {}; the entry is lost, and the list that was meant "
+                "there is no list {}: this dialog creates {}; the entry is lost, and the list that was meant "
                 "offers one less; write its number, in the order of `DROPDOWN_NEW`",
                 numberText(*number),
                 made == 0   ? "none"

@@ -30,14 +30,14 @@ bool checkWays(const NcProgram& nc, const Probing& probing, Report& report) {
     report
         .at(body[i].origin.range(),
             "the probe is still on here; its battery runs down, and the next tool may turn with "
-            "the interlock of the probe in force; switch it off on this way, too")
+            "the interlock of the probe in force; switch it off on this path, too")
         .note(on->origin.range(), "switched on here");
     found = true;
   }
   return found;
 }
 
-// A jump from where the probe is on over all that switches it off. Where it is on only on some of the ways to
+// A jump from where the probe is on over all that switches it off. Where it is on only on some paths to
 // the jump, the condition may be the one that switched it on.
 template <ir::AnyStatement Statement>
 void checkJumps(const std::vector<Statement>& body, const ir::ProgramFlow& flow,
@@ -62,7 +62,7 @@ void checkJumps(const std::vector<Statement>& body, const ir::ProgramFlow& flow,
             .at(body[i].origin.range(),
                 "the probe is still on when this jumps over all that switches it off; its battery runs down, "
                 "and the next tool may turn with the interlock of the probe in force; switch it off on this "
-                "way, too")
+                "path, too")
             .note(on->origin.range(), "switched on here");
   }
 }

@@ -244,7 +244,7 @@ bool Machine::dwell(const NcWords& w) {
   double seconds = 0;
   const bool byP = own == 0 && control_->dwellLetter == 'P';
   if (byP && given == 1 && !w.has('P'))
-    return inconclusive("a dwell takes P on this control, and no source has another address", 'G');
+    return inconclusive("a dwell takes P on this control; no source documents another address", 'G');
   if (byP && w.has('P') && (w.pointed & ir::addressBit('P')) != 0) {
     seconds = w.of('P');
     if (!(seconds >= 0)) return inconclusive("a dwell is not below 0", 'P');
