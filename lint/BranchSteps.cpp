@@ -210,7 +210,8 @@ BlockDeeds deedsOf(const ProgBlock& block, const Project& project) {
     // With Z, a width or a diameter is measured from outside, whichever signature comes first.
     out.outside =
         out.measures && z && meaning.intent != Intent::Surface && meaning.intent != Intent::StockAllowance;
-    out.movesZ = z && meaning.set != nullptr && meaning.intent == Intent::ProtectedMove;
+    out.movesZ = (z || printsUnknown(block, project.form)) && meaning.set != nullptr &&
+                 meaning.intent == Intent::ProtectedMove;
     out.switchesProbeOn = meaning.set != nullptr && meaning.intent == Intent::ProbeOn;
     return out;
   }

@@ -1,5 +1,6 @@
 #include "lint/LeastValues.h"
 
+#include "lint/CalledFiles.h"
 #include "lint/MacroNames.h"
 
 #include <algorithm>
@@ -55,7 +56,50 @@ LeastValues::LeastValues(const gibbs::Cycle& cycle, const Project& project) {
     if (written[name] == 1) computed_.emplace(name, set->value.get());
   }
   const std::set<std::string> decide = deciding(*cycle.cycleData);
+  readChecks(*cycle.cycleData, decide, {});
   eachStatement(*cycle.cycleData, [&](const gibbs::Statement& statement) {
+    const auto* call = std::get_if<gibbs::CallMacro>(&statement.node);
+    if (call == nullptr) return;
+    const auto* file = call->macro ? std::get_if<gibbs::TextLiteral>(&call->macro->node) : nullptr;
+    const gibbs::Macro* macro = calledMacro(cycle, file != nullptr ? file->text : call->bareName, project);
+    if (macro == nullptr || macro->hasErrorNodes) return;
+    const std::map<std::string, Sum> given = argumentsOf(*call, *macro);
+    if (!given.empty()) readChecks(*macro, decide, given);
+  });
+}
+
+std::map<std::string, LeastValues::Sum> LeastValues::argumentsOf(const gibbs::CallMacro& call,
+                                                                 const gibbs::Macro& macro) const {
+  std::map<std::string, Sum> out;
+  std::set<std::string> assigned;
+  eachStatement(macro, [&](const gibbs::Statement& statement) {
+    if (const auto* set = std::get_if<gibbs::Assignment>(&statement.node))
+      assigned.insert(gibbs::foldCase(set->target.name.text));
+    const auto* takes = std::get_if<gibbs::Args>(&statement.node);
+    if (takes == nullptr) return;
+    for (std::size_t i = 0; i < std::min(takes->names.size(), call.arguments.size()); ++i)
+      if (call.arguments[i])
+        out[gibbs::foldCase(takes->names[i].name.text)] = sumOf(*call.arguments[i], kDepth);
+  });
+  for (const std::string& name : assigned)
+    out.erase(name); // it is another value by then
+  return out;
+}
+
+void LeastValues::readChecks(const gibbs::Macro& macro, const std::set<std::string>& decide,
+                             const std::map<std::string, Sum>& given) {
+  const auto put = [&](Sum sum) {
+    for (const auto& [name, value] : given) {
+      const auto found = sum.factors.find(name);
+      if (found == sum.factors.end()) continue;
+      const double factor = found->second;
+      sum.factors.erase(found);
+      sum.known = sum.known && value.known;
+      sum = without(std::move(sum), value, -factor);
+    }
+    return sum;
+  };
+  eachStatement(macro, [&](const gibbs::Statement& statement) {
     const auto* branch = std::get_if<gibbs::If>(&statement.node);
     if (branch == nullptr || !branch->then) return;
     std::set<std::string> compared;
@@ -74,7 +118,7 @@ LeastValues::LeastValues(const gibbs::Cycle& cycle, const Project& project) {
       if (one.relation == Relation::Equal || one.relation == Relation::NotEqual || kept_.size() == kChecks)
         continue;
       const bool less = one.relation == Relation::Less || one.relation == Relation::LessEqual;
-      Sum left = sumOf(*one.left, kDepth), right = sumOf(*one.right, kDepth);
+      Sum left = put(sumOf(*one.left, kDepth)), right = put(sumOf(*one.right, kDepth));
       if (left.known && right.known)
         kept_.push_back(less ? without(std::move(left), right, 1) : without(std::move(right), left, 1));
     }

@@ -10,8 +10,8 @@
 
 namespace dotek::lint {
 
-// Reads the checks of CycleData.mac (`if D < 2*r then goto again`) and what it computes of other fields
-// (`T = 2*D`). What is written in another way bounds nothing.
+// Reads the checks of CycleData.mac and of the macros that it calls (`if D < 2*r then goto again`), and what
+// it computes from other fields (`T = 2*D`). What is written in another way bounds nothing.
 class LeastValues {
 public:
   // Both outlive it.
@@ -26,6 +26,11 @@ private:
     double number = 0;
     bool known = true; // it is such a sum
   };
+  // What the call gives to the names after ARGS that the macro leaves as they come.
+  std::map<std::string, Sum> argumentsOf(const gibbs::CallMacro& call, const gibbs::Macro& macro) const;
+  // `decide`: variables that decide whether the value is rejected; `given`: what the macro's names stand for.
+  void readChecks(const gibbs::Macro& macro, const std::set<std::string>& decide,
+                  const std::map<std::string, Sum>& given);
   static Sum without(Sum sum, const Sum& other, double times);
   Sum sumOf(const gibbs::Expression& expression, int depth) const;
   double least(const Sum& sum, int depth) const;

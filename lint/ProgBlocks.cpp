@@ -236,6 +236,13 @@ std::vector<ProgWord> wordsOf(const ProgBlock& block, const stdlib::Form* form, 
   return out;
 }
 
+bool printsUnknown(const ProgBlock& block, const stdlib::Form* form) {
+  return std::any_of(block.pieces.begin(), block.pieces.end(), [&](const ProgPiece& piece) {
+    return piece.kind == ProgPiece::Kind::Command &&
+           (form == nullptr || !form->commands.contains(piece.word->name));
+  });
+}
+
 const ProgWord* findWord(const std::vector<ProgWord>& words, char address) {
   const auto at =
       std::find_if(words.begin(), words.end(), [&](const ProgWord& word) { return word.address == address; });

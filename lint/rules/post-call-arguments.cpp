@@ -40,7 +40,7 @@ void checkBlock(const ProgBlock& block, const Project& project, Report& report) 
           "P{} measures one thing at a time, and the letters {} of this call belong to several; the macro "
           "stops with an alarm; print a call for each",
           program, known);
-    else if (reading.refusal == CallRefusal::Missing)
+    else if (reading.refusal == CallRefusal::Missing && !printsUnknown(block, project.form))
       report.at(call->range,
                 "P{} needs {}, which this call does not print; the macro stops with an alarm; print it",
                 program, reading.missing);

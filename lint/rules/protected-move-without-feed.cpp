@@ -13,7 +13,7 @@ void check(const Project& project, Report& report) {
       if (meaning.set == nullptr || meaning.intent != stdlib::Intent::ProtectedMove) continue;
       if (findWord(words, 'F') != nullptr)
         others = true;
-      else if (!block.called)
+      else if (!block.called && !printsUnknown(block, project.form))
         without.push_back(block.range);
     }
     if (!others) return;

@@ -52,19 +52,26 @@ void checkProgram(const NcProgram& nc, Report& report) {
   }
 }
 
+// Distances and waits add up, and a code of the builder may count.
+bool addsUp(const ProgWord& word) {
+  if (word.address == 'M' || word.address == 'T') return true;
+  if (word.address != 'G') return false;
+  const std::string_view digits =
+      std::string_view(word.digits).substr(std::min(word.digits.find_first_not_of('0'), word.digits.size()));
+  return digits == "4" || digits == "91";
+}
+
 void checkPosts(const Project& project, Report& report) {
   eachRoutine(project, [&](const compost::Program& prog, const compost::Routine& routine) {
     if (prog.hasErrorNodes || !routine.returnRange) return; // told already
     const std::vector<ProgBlock>& blocks = blocksOf(routine.body, prog, project);
     for (std::size_t i = 1; i < blocks.size(); ++i) {
       const std::string text = blocks[i].text();
-      // Distances and waits add up.
-      if (blocks[i].called || text != blocks[i - 1].text() || text.find("G91") != std::string::npos ||
-          text.find("G4") != std::string::npos ||
+      if (blocks[i].called || text != blocks[i - 1].text() ||
           text.find_first_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ") == std::string::npos || text.front() == '(')
         continue;
-      const std::vector<ProgWord> words = wordsOf(blocks[i], nullptr);
-      if (findWord(words, 'M') != nullptr || findWord(words, 'T') != nullptr) continue;
+      const std::vector<ProgWord> words = wordsOf(blocks[i], nullptr, true);
+      if (std::any_of(words.begin(), words.end(), addsUp)) continue;
       if (blocks[i].pieces.front().arm != blocks[i - 1].pieces.front().arm) continue;
       report.at(blocks[i].range,
                 "this block is the same as the one before and changes nothing; one of the two is "
