@@ -11,8 +11,29 @@ namespace {
 
 struct Called {
   std::uint32_t number = 0;
+  std::string letters; // of its arguments, sorted
   SourceRange range;
 };
+
+// One of the digits is another.
+bool isOneDigitOff(std::uint32_t one, std::uint32_t other) {
+  const std::string a = std::to_string(one), b = std::to_string(other);
+  int differ = 0;
+  for (std::size_t i = 0; i < a.size() && a.size() == b.size(); ++i)
+    differ += a[i] != b[i] ? 1 : 0;
+  return a.size() == b.size() && differ == 1;
+}
+
+// A program that is called at least twice with these letters, and whose number is one digit off; 0: none.
+std::uint32_t likeOthers(const Called& call, const std::vector<Called>& calls) {
+  for (const Called& other : calls)
+    if (!call.letters.empty() && isOneDigitOff(call.number, other.number) &&
+        std::count_if(calls.begin(), calls.end(), [&](const Called& one) {
+          return one.number == other.number && one.letters == call.letters;
+        }) > 1)
+      return other.number;
+  return 0;
+}
 
 // Two neighbouring digits of the number changed places.
 std::set<std::uint32_t> swaps(std::uint32_t number) {
@@ -48,7 +69,17 @@ void compare(const std::vector<Called>& calls, const std::set<std::uint32_t>& de
     }
     const auto there = std::find_if(others.begin(), others.end(),
                                     [&](std::uint32_t other) { return defined.contains(other); });
-    if (meant == calls.end() && there == others.end()) continue;
+    if (meant == calls.end() && there == others.end()) {
+      const std::uint32_t other = likeOthers(call, calls);
+      if (other != 0 && known(other))
+        report.at(
+            call.range,
+            "nothing is known of the program {0}, and {1}, which differs in one digit, is called with the "
+            "same letters elsewhere; the control stops with an alarm, or runs something else; write P{1} "
+            "if it is meant",
+            call.number, other);
+      continue;
+    }
     report.at(
         call.range,
         "nothing is known of the program {0}, and {1} has the same digits in another order; the control "
@@ -65,8 +96,13 @@ void check(const Project& project, Report& report) {
     for (const ir::ProgramStatement& statement : program.body) {
       const ir::Call* call = callOf(statement);
       const double* number = call == nullptr || !call->program ? nullptr : ir::constantValue(call->program);
-      if (number != nullptr && *number > 0 && *number < 1e8)
-        calls.push_back({static_cast<std::uint32_t>(std::lround(*number)), statement.origin.range()});
+      if (number == nullptr || *number <= 0 || *number >= 1e8) continue;
+      std::string letters;
+      for (const ir::CallArgument& one : call->arguments)
+        letters += one.letter;
+      std::sort(letters.begin(), letters.end());
+      calls.push_back(
+          {static_cast<std::uint32_t>(std::lround(*number)), std::move(letters), statement.origin.range()});
     }
   });
   compare(calls, defined, project, report);
@@ -76,10 +112,15 @@ void check(const Project& project, Report& report) {
       const auto* routine = std::get_if<compost::Routine>(&item);
       if (routine == nullptr) continue;
       for (const ProgBlock& block : blocksOf(routine->body, *prog, project)) {
-        const std::vector<ProgWord> words = wordsOf(block, nullptr);
+        const std::vector<ProgWord> words = wordsOf(block, nullptr, true);
         const ProgWord* word = findWord(words, 'P');
-        if (const std::uint32_t number = macroCalled(words); number != 0 && word != nullptr && !block.called)
-          printed.push_back({number, word->range});
+        const std::uint32_t number = macroCalled(words);
+        if (number == 0 || word == nullptr || block.called) continue;
+        std::string letters;
+        for (const ProgWord& one : words)
+          if (one.address != 'G' && one.address != 'P' && one.address != 'N') letters += one.address;
+        std::sort(letters.begin(), letters.end());
+        printed.push_back({number, std::move(letters), word->range});
       }
     }
     compare(printed, defined, project, report);
