@@ -17,8 +17,8 @@ namespace {
 constexpr std::string_view kRules[] = {
     "contact-of-other-axis", "coordinate-as-distance", "distance-as-coordinate", "jump-to-itself",
     "length-offset-number",  "loop-never-ends",        "loop-without-step",      "machine-move-incremental",
-    "skip-never-tested",     "skip-starts-in-contact", "skip-without-feed",      "tool-length-in-target",
-    "variable-out-of-range", "work-offset-number",
+    "offset-of-no-axis",     "skip-never-tested",      "skip-starts-in-contact", "skip-without-feed",
+    "tool-length-in-target", "variable-out-of-range",  "work-offset-number",
 };
 
 // A value with which a cycle is called as a rule.
