@@ -75,7 +75,8 @@ struct Index {
   // Names with this beginning keep their meaning where all occurrences of this index are renamed; what is not
   // listed is known elsewhere, too.
   std::vector<std::string> renamable;
-  std::set<std::string> taken; // names that no other one gets, beside those of occurrences of its kind
+  std::set<std::string> taken;        // names that no other one gets, beside those of occurrences of its kind
+  std::uint32_t lastBlock = 99999999; // the greatest number that a block may have
   std::vector<std::uint32_t> programs; // of Macro B: where each begins
   bool computedJumps = false;          // a GOTO whose number is computed
 

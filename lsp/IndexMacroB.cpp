@@ -176,7 +176,9 @@ void indexMacroB(Index& index, project::Session& session, const std::string& pat
   const macrob::File file = macrob::parse(index.file, session.sources(), session.limits(), unheard);
   std::string control = project::settingsOf(path, session).control;
   if (control.empty()) control = project::kDefaultControl;
-  Indexer(index, session, session.control(control)).file(file);
+  const stdlib::Control* const profile = session.control(control);
+  if (profile != nullptr) index.lastBlock = profile->sequenceLast;
+  Indexer(index, session, profile).file(file);
 }
 
 } // namespace dotek::lsp

@@ -1,6 +1,5 @@
-// Requests about names and symbols: hover, definition, references, rename, symbols, hints.
-#include "frontend/fusion/Tokens.h"
-#include "lsp/Server.h"
+// Requests about names and symbols: hover, definition, references, symbols, hints.
+#include "lsp/Uses.h"
 #include "project/CycleFolder.h"
 #include "support/Ascii.h"
 
@@ -14,107 +13,6 @@ namespace dotek::lsp {
 using Role = Occurrence::Role;
 
 namespace {
-
-struct Place {
-  const Document* document = nullptr;
-  const Index* index = nullptr;
-  std::uint32_t offset = 0;
-};
-
-// nullopt: the text is in no language that Dotek reads, as it may be while somebody types.
-std::optional<Place> placeIn(Workspace& workspace, const Json& params) {
-  Place out;
-  out.document = &documentOf(workspace, params);
-  out.index = &workspace.index(*out.document);
-  if (out.index->file == kNoFile) return std::nullopt;
-  out.offset = placeOf(workspace, *out.index, params);
-  return out;
-}
-
-Place renamePlace(Workspace& workspace, const Json& params) {
-  const std::optional<Place> place = placeIn(workspace, params);
-  if (!place) throw Refusal{kRequestFailed, "the text is in no language that Dotek reads"};
-  return *place;
-}
-
-// Where a name is, over the files in which it means the same.
-struct Use {
-  std::string uri;
-  const Index* index = nullptr;
-  const Occurrence* occurrence = nullptr;
-};
-
-std::string folderName(const std::string& path) {
-  return std::filesystem::path(path).filename().string();
-}
-
-// Fields of two cycles with one name are two fields; a Prog says which cycle it prints.
-class Finder {
-public:
-  Finder(Workspace& workspace, const Document& document, const Occurrence& one)
-      : workspace_(workspace), document_(document), key_(one.key), scope_(one.scope) {}
-
-  std::vector<Use> uses() {
-    const bool field = key_.starts_with("field ");
-    add(document_.path);
-    const std::string unit = Workspace::unitOf(document_.path);
-    const bool ofCycle = unit != document_.path;
-    const bool prog = workspace_.index(document_).kind == std::optional(project::InputKind::Prog);
-    if (field && ofCycle) {
-      scope_ = folderName(unit);
-      for (const std::string& path : workspace_.companions(document_))
-        add(path);
-      if (const std::string post = Workspace::postOf(document_.path); !post.empty()) add(post);
-    } else if (field && prog) {
-      for (const std::string& folder : Workspace::cycleFolders(document_.path))
-        if (scope_.empty() || folderName(folder) == scope_) addFolder(folder);
-    } else if (key_.starts_with("O ")) {
-      for (const std::string& path : workspace_.beside(document_, project::InputKind::Nc))
-        add(path);
-    } else if (key_.starts_with("cycle ") && !prog) {
-      for (const std::string& path : workspace_.beside(document_, project::InputKind::Cycle))
-        add(path);
-    }
-    // What is open, too.
-    const bool common = key_.starts_with("# ") && key_.find(' ', 2) == std::string::npos;
-    for (const auto& [uri, other] : workspace_.documents()) {
-      const bool isProg = workspace_.index(other).kind == std::optional(project::InputKind::Prog);
-      const std::string folder = Workspace::unitOf(other.path);
-      const bool sameCycle = prog && folder != other.path && (scope_.empty() || folderName(folder) == scope_);
-      if (common || key_.starts_with("O ") || key_.starts_with("cycle ") ||
-          (field && (isProg ? prog || ofCycle : sameCycle)))
-        add(other.path);
-    }
-    return std::move(out_);
-  }
-
-private:
-  void addFolder(const std::string& folder) {
-    for (const char* name : {"DefineData.txt", "CycleData.dlg", "CycleData.mac", "ToolPath.mac"})
-      if (const auto path = project::cycleFile(folder, name)) add(path->generic_string());
-  }
-
-  void add(const std::string& path) {
-    if (!seen_.insert(path).second) return;
-    std::string uri = uriOf(path);
-    for (const auto& [open, other] : workspace_.documents())
-      if (other.path == path) uri = open;
-    const Index& index = workspace_.indexOf(path);
-    for (const Occurrence& one : index.occurrences)
-      if (one.key == key_ && (one.scope.empty() || scope_.empty() || one.scope == scope_))
-        out_.push_back({uri, &index, &one});
-  }
-
-  Workspace& workspace_;
-  const Document& document_;
-  std::string key_, scope_;
-  std::set<std::string> seen_;
-  std::vector<Use> out_;
-};
-
-std::vector<Use> usesOf(Workspace& workspace, const Document& document, const Occurrence& one) {
-  return Finder(workspace, document, one).uses();
-}
 
 Json locationOf(const Use& use, Units units) {
   return {{"uri", use.uri}, {"range", rangeOf(use.index->text(), use.occurrence->range, units)}};
@@ -131,44 +29,6 @@ Json symbolJson(const Symbol& symbol, const SourceFile& file, Units units) {
   if (!symbol.detail.empty()) out["detail"] = symbol.detail;
   if (!children.empty()) out["children"] = children;
   return out;
-}
-
-// What a name's occurrence holds beside the name itself: the N of a block, the # of a variable.
-std::string prefixOf(const Index& index, const Occurrence& one) {
-  const std::string text = index.sources.textUtf8(one.range);
-  // Of Mikroprog the L of a jump.
-  if (one.key.starts_with("N ") && !text.empty() && isLetter(text.front())) return text.substr(0, 1);
-  return "";
-}
-
-const Occurrence& renamed(const Place& place) {
-  const Occurrence* const one = place.index->at(place.offset);
-  if (one == nullptr) throw Refusal{kRequestFailed, "no name is here"};
-  const auto& may = place.index->renamable;
-  if (std::find(may.begin(), may.end(), one->key) == may.end())
-    throw Refusal{
-        kRequestFailed,
-        "this name is known outside of what is open: the control, the CAM or another program may use it"};
-  if (one->key.starts_with("N ") && place.index->computedJumps)
-    throw Refusal{kRequestFailed, "a jump of this file computes its block number, so no number is renamed"};
-  return *one;
-}
-
-void checkName(const Occurrence& one, const std::string& name, const Index& index) {
-  const bool number = one.key.starts_with("N ");
-  const bool good = !name.empty() && name.size() <= 60 && std::all_of(name.begin(), name.end(), [&](char c) {
-    if (c >= '0' && c <= '9') return true;
-    return !number && ((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_');
-  }) && (number ? name.size() <= 8 : !(name.front() >= '0' && name.front() <= '9'));
-  if (!good)
-    throw Refusal{kRequestFailed, number ? "a block number has digits only"
-                                         : "a name has letters, digits and `_`, and begins with no digit"};
-  if (index.post && frontend::fusion::isReserved(name))
-    throw Refusal{kRequestFailed, "`" + name + "` is a word of the language"};
-  if (index.taken.contains(name)) throw Refusal{kRequestFailed, "`" + name + "` is in use"};
-  const std::string key = one.key.substr(0, one.key.rfind(' ') + 1) + name;
-  for (const Occurrence& other : index.occurrences)
-    if (other.key == key) throw Refusal{kRequestFailed, "`" + name + "` is in use"};
 }
 
 } // namespace
@@ -198,7 +58,8 @@ std::string firstValue(const Occurrence& one, const std::vector<Use>& uses) {
     const SourceFile& file = use.index->text();
     const std::uint32_t line = file.lineOf(use.occurrence->range.begin);
     return fmt::format("**{}** first set in line {} of {}:\n\n    {}", one.key.substr(6), line,
-                       folderName(file.name()), use.index->utf8(file.line(line)));
+                       std::filesystem::path(file.name()).filename().string(),
+                       use.index->utf8(file.line(line)));
   }
   return "";
 }
@@ -287,7 +148,7 @@ Json definition(Workspace& workspace, const Json& params) {
     path = file->second;
   if (one->key.starts_with("cycle "))
     for (const std::string& folder : Workspace::cycleFolders(place.document->path))
-      if (path.empty() && folderName(folder) == one->key.substr(6))
+      if (path.empty() && std::filesystem::path(folder).filename() == one->key.substr(6))
         for (const char* name : {"ToolPath.mac", "CycleData.mac", "CycleData.dlg", "DefineData.txt"})
           if (const auto file = project::cycleFile(folder, name); file && path.empty())
             path = file->generic_string();
@@ -323,27 +184,6 @@ Json highlights(Workspace& workspace, const Json& params) {
       out.push_back({{"range", rangeOf(place.index->text(), other.range, workspace.units)},
                      {"kind", other.role == Role::Read ? 2 : 3}});
   return out;
-}
-
-Json prepareRename(Workspace& workspace, const Json& params) {
-  const Place place = renamePlace(workspace, params);
-  const Occurrence& one = renamed(place);
-  SourceRange range = one.range;
-  range.begin += static_cast<std::uint32_t>(prefixOf(*place.index, one).size());
-  return {{"range", rangeOf(place.index->text(), range, workspace.units)},
-          {"placeholder", place.index->sources.textUtf8(range)}};
-}
-
-Json rename(Workspace& workspace, const Json& params) {
-  const Place place = renamePlace(workspace, params);
-  const Occurrence& one = renamed(place);
-  const std::string name = params.value("newName", "");
-  checkName(one, name, *place.index);
-  Json changes = Json::object();
-  for (const Use& use : usesOf(workspace, *place.document, one))
-    changes[use.uri].push_back({{"range", rangeOf(use.index->text(), use.occurrence->range, workspace.units)},
-                                {"newText", prefixOf(*use.index, *use.occurrence) + name}});
-  return {{"changes", changes}};
 }
 
 Json documentSymbols(Workspace& workspace, const Json& params) {

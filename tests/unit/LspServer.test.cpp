@@ -110,7 +110,7 @@ TEST_CASE("lsp: a name is changed once at each place, and a label in its own mac
   const std::string path = folder.write("two.cycle", cycle);
   client.open(path, cycle);
   Json params = at(path, 4, 1);
-  params["newName"] = "off";
+  params["newName"] = "aside";
   const Json edits = client.result("textDocument/rename", params)["changes"][uriOf(path)];
   CHECK(edits.size() == 4);
   for (std::size_t i = 0; i < edits.size(); ++i)
