@@ -7,6 +7,7 @@
 #include "cli/Options.h"
 #include "lint/Catalog.h"
 #include "project/Assumptions.h"
+#include "support/Ascii.h"
 #include "support/FileIdentity.h"
 #include "support/NearestName.h"
 #include "support/Printable.h"
@@ -115,8 +116,11 @@ void declareCommands(CLI::App& app, const std::vector<std::string>& arguments, R
     CLI::App* help = app.add_subcommand("help", "print a page of the manual, or which pages there are");
     help->add_option("TOPIC", raw.inputs, "a page, or a command")->expected(0, 1);
   }
-  for (CLI::App* command : app.get_subcommands(nullptr))
+  for (CLI::App* command : app.get_subcommands(nullptr)) {
     command->footer(helpFooter(command->get_name()));
+    for (CLI::App* part : command->get_subcommands(nullptr))
+      part->footer(helpFooter(command->get_name() + " " + part->get_name()));
+  }
 }
 
 // What `dotek --help` prints; help() of a program whose command is named is that of the command.
@@ -133,7 +137,8 @@ std::string helpOfAll(const CLI::App& app) {
 }
 
 // `dotek help [TOPIC]`.
-int printHelp(const CLI::App& app, const std::vector<std::string>& topics, std::ostream& out) {
+int printHelp(const CLI::App& app, std::vector<std::string> topics, std::ostream& out) {
+  if (!topics.empty() && helpOn(topics.front()).empty()) topics.front() = lowerCase(topics.front());
   if (topics.empty()) {
     out << overviewOf(app) << "\n" << helpTopics();
     return kDone;
@@ -155,15 +160,40 @@ int printHelp(const CLI::App& app, const std::vector<std::string>& topics, std::
 }
 
 // CLI11 would only say that a command is missing.
-void checkCommand(const std::vector<std::string>& arguments) {
-  if (arguments.empty() || arguments.front().starts_with('-')) return;
+void checkCommand(const CLI::App& app, const std::vector<std::string>& arguments) {
+  const auto like = [](const std::string& word, const std::vector<std::string>& known) {
+    const std::string near = nearestName(word, known);
+    return near.empty() ? std::string() : "; did you mean `" + near + "`?";
+  };
+  if (arguments.empty()) return;
+  const auto isKnown = [](const std::string& word, const std::vector<std::string>& known) {
+    return std::find(known.begin(), known.end(), word) != known.end();
+  };
+  if (arguments.front().starts_with('-')) {
+    const std::vector<std::string> flags = {"--help", "-h", "--version"};
+    if (arguments.front().starts_with("--") && !isKnown(arguments.front(), flags))
+      throw UsageError("no flag `" + arguments.front() + "` before a command" +
+                       like(arguments.front(), flags) + "; `dotek --help` prints the commands");
+    return;
+  }
   std::vector<std::string> known = {"help"};
   for (const CommandFlags& one : kCommands)
     known.emplace_back(one.name);
-  if (std::find(known.begin(), known.end(), arguments.front()) != known.end()) return;
-  const std::string near = nearestName(arguments.front(), known);
-  throw UsageError("no command `" + arguments.front() + "`" +
-                   (near.empty() ? "" : "; did you mean `" + near + "`?") +
+  if (isKnown(arguments.front(), known)) {
+    // `new` has commands of its own.
+    std::vector<std::string> parts;
+    for (const CLI::App* command : app.get_subcommands(nullptr))
+      if (command->get_name() == arguments.front())
+        for (const CLI::App* part : command->get_subcommands(nullptr))
+          parts.push_back(part->get_name());
+    if (parts.empty() || arguments.size() < 2 || arguments[1].starts_with('-') ||
+        isKnown(arguments[1], parts))
+      return;
+    throw UsageError("`dotek " + arguments.front() + "` makes no `" + arguments[1] + "`" +
+                     like(arguments[1], parts) + "; `dotek " + arguments.front() +
+                     " --help` prints what it makes");
+  }
+  throw UsageError("no command `" + arguments.front() + "`" + like(arguments.front(), known) +
                    "; `dotek --help` prints the commands");
 }
 
@@ -322,7 +352,7 @@ std::optional<int> parseArguments(const std::vector<std::string>& arguments, Arg
   app.require_subcommand(1);
   declareCommands(app, arguments, raw);
   try {
-    checkCommand(arguments);
+    checkCommand(app, arguments);
     std::vector<std::string> reversed = spreadPairs(arguments);
     std::reverse(reversed.begin(), reversed.end());
     app.parse(reversed);

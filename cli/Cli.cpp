@@ -226,10 +226,11 @@ public:
              : arguments.format != "text"
                  ? findingsDocument(arguments.format, outcome)
                  : renderText(outcome.diagnostics, outcome.sources, maxErrors_, outColors_));
+    out_.flush(); // on a terminal the closing lines come last
     if (!arguments.quiet && !outcome.summary.empty()) err_ << outcome.summary << "\n";
-    if (const std::string line = closingLine(outcome.diagnostics);
-        !line.empty() && !arguments.quiet && isatty(STDERR_FILENO) == 1)
-      err_ << line << "\n";
+    std::string line = closingLine(outcome.diagnostics);
+    if (line.empty() && arguments.watch && outcome.diagnostics.empty()) line = "no findings";
+    if (!line.empty() && !arguments.quiet && isatty(STDERR_FILENO) == 1) err_ << line << "\n";
     if (outcome.status == kUsage || arguments.baselineFile.empty()) return outcome.status;
     std::vector<NamedText> texts;
     for (const driver::OutputFile& file : outcome.files)
@@ -243,6 +244,7 @@ public:
       err_ << renderText(outcome.diagnostics, outcome.sources, maxErrors_, errColors_);
     for (const driver::OutputFile& file : outcome.files)
       out_ << diffOf(file, outcome.sources);
+    out_.flush();
     if (!arguments.quiet && !outcome.summary.empty()) err_ << outcome.summary << "\n";
     return outcome.status;
   }
@@ -260,7 +262,8 @@ public:
       if (!arguments.check && !arguments.diff && !arguments.write && outcome.status == 0)
         texts.push_back({orStandardOutput(arguments.output), &file.text});
     }
-    if (arguments.check) return outcome.status != 0 || outcome.inputs.empty() ? outcome.status : kInputError;
+    if (arguments.check || arguments.diff)
+      return outcome.status != 0 || outcome.inputs.empty() ? outcome.status : kInputError;
     Diagnostics writing;
     const bool done = writeAll(texts, "", {arguments.force, &out_}, writing);
     err_ << renderText(writing, SourceMap(), maxErrors_, errColors_);

@@ -68,10 +68,41 @@ std::string cycleName(std::string stem) {
   return stem;
 }
 
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
+// The layout with the line ends that the file has in its first line, and its byte order mark.
+std::string endedAs(const std::string& path, const SourceFile& before, const std::string& laidOut,
+                    const Limits& limits) {
+  std::string out;
+  Diagnostics unheard;
+  std::error_code error;
+  if (std::filesystem::is_regular_file(path, error))
+    if (const auto bytes = readBytes(path, limits, unheard); bytes && bytes->starts_with(kByteOrderMark))
+      out = kByteOrderMark;
+  const std::size_t end = before.bytes().find('\n');
+  if (end == std::string::npos || end == 0 || before.bytes()[end - 1] != '\r') return out + laidOut;
+  for (const char c : laidOut)
+    out += c == '\n' ? "\r\n" : std::string(1, c);
+  return out;
+}
+
+bool differs(const std::string& text, const SourceFile& before) {
+  std::string_view written = text;
+  if (written.starts_with(kByteOrderMark)) written.remove_prefix(kByteOrderMark.size());
+  return written != before.bytes();
+}
+
 struct Layout {
   std::string text;
   bool changes = false;
 };
+
+Layout layoutOf(const std::string& path, const SourceFile& before, const std::string& laidOut,
+                const Limits& limits) {
+  std::string text = endedAs(path, before, laidOut, limits);
+  const bool changes = differs(text, before);
+  return {std::move(text), changes};
+}
 
 // A file of macro programs in the one style (docs/macrob.md). nullopt: reported.
 std::optional<Layout> programLayout(const std::string& path, Session& session) {
@@ -94,7 +125,6 @@ std::optional<Layout> programLayout(const std::string& path, Session& session) {
   }
   // What is written has to read as what was read.
   const SourceFile& before = sources.file(*id);
-  const bool changes = before.bytes() != *text;
   const FileId again = sources.add(SourceFile(before.name(), *text, before.encoding()));
   Diagnostics unheard;
   const macrob::File after = macrob::parse(again, sources, session.limits(), unheard, macrob::Text::Program);
@@ -103,7 +133,7 @@ std::optional<Layout> programLayout(const std::string& path, Session& session) {
                                                    "this is a defect of Dotek; leave the file as it is");
     return std::nullopt;
   }
-  return Layout{std::move(*text), changes};
+  return layoutOf(path, before, *text, session.limits());
 }
 
 } // namespace
@@ -136,17 +166,14 @@ Outcome layOut(const CycleOptions& options) {
         const auto kind =
             kindAmong(path, {InputKind::Cycle, InputKind::Nc}, "a cycle or an NC program", session);
         if (!kind) continue;
-        if (kind == InputKind::Nc) {
-          if (const auto laid = programLayout(path, session)) {
-            files.push_back({path, laid->text});
-            if (laid->changes) inputs.push_back(path);
-          }
-          continue;
-        }
-        const cycle::File* file = cycles.load(path);
-        if (file == nullptr || file->hasErrorNodes) continue;
-        files.push_back({path, cycle::layOut(*file)});
-        if (session.sources().file(file->file).bytes() != files.back().text) inputs.push_back(path);
+        std::optional<Layout> laid;
+        if (kind == InputKind::Nc)
+          laid = programLayout(path, session);
+        else if (const cycle::File* file = cycles.load(path); file != nullptr && !file->hasErrorNodes)
+          laid = layoutOf(path, session.sources().file(file->file), cycle::layOut(*file), session.limits());
+        if (!laid) continue;
+        if (laid->changes) inputs.push_back(path);
+        files.push_back({path, std::move(laid->text)});
       }
     Outcome outcome = outcomeOf(session, "", true);
     outcome.files = std::move(files);

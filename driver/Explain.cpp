@@ -12,6 +12,8 @@
 #include "support/messages/Commands.h"
 #include "targets/Target.h"
 
+#include "support/Ascii.h"
+
 #include <algorithm>
 
 namespace dotek::driver {
@@ -90,7 +92,8 @@ std::vector<std::pair<std::string, std::string>> loaded(Session& session, const 
 
 } // namespace
 
-Outcome explain(const std::string& code) {
+Outcome explain(const std::string& asked) {
+  const std::string code = lowerCase(asked);
   Outcome outcome;
   std::vector<std::string> codes;
   for (const lint::CodeInfo& info : lint::codeTable()) {

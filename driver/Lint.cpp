@@ -146,14 +146,14 @@ private:
     std::optional<lint::Baseline> baseline = readBaseline(*options_.baseline, session_);
     if (!baseline) return false;
     baseline->passOver(session_.diagnostics(), session_.sources());
-    passedOver_ = fmt::format("{} of the baseline passed over", baseline->passedOver());
+    passedOver_ = fmt::format("{} of the baseline left out", baseline->passedOver());
     if (const std::size_t blind = baseline->passedBlindly(); blind > 0)
       passedOver_ +=
           fmt::format(", {} of them with further places, which the list of an older version does not "
                       "know: write it anew",
                       blind);
     if (const std::size_t gone = baseline->gone(judgedBy(lookedAt(), session_.sources())); gone > 0)
-      passedOver_ += fmt::format(", {} of it gone: write it anew", gone);
+      passedOver_ += fmt::format(", {} of it no longer found: write it anew", gone);
     else if (baseline->isOfOthers(session_.sources()))
       passedOver_ += ", as it is of other files: it names them from its own folder";
     return true;

@@ -154,6 +154,9 @@ Json codeActions(Workspace& workspace, const Json& params) {
 
 Json formatting(Workspace& workspace, const Json& params) {
   const Document& document = documentOf(workspace, params);
+  const std::optional<project::InputKind> kind = workspace.index(document).kind;
+  // An editor that formats whenever it saves asks for all languages.
+  if (kind != project::InputKind::Cycle && kind != project::InputKind::Nc) return Json::array();
   const driver::Outcome outcome = driver::layOut({{document.path}, workspace.options({document.path})});
   if (outcome.status != 0 || outcome.files.empty())
     throw Refusal{kRequestFailed, outcome.diagnostics.empty() ? "nothing was laid out"
@@ -162,8 +165,10 @@ Json formatting(Workspace& workspace, const Json& params) {
   const Index& index = workspace.index(document);
   if (index.file == kNoFile) throw Refusal{kRequestFailed, "no text of a language that is laid out"};
   const SourceRange all{index.file, 0, static_cast<std::uint32_t>(index.text().bytes().size())};
-  return Json::array(
-      {{{"range", rangeOf(index.text(), all, workspace.units)}, {"newText", outcome.files.front().text}}});
+  std::string text = outcome.files.front().text;
+  // An editor keeps the byte order mark of the file beside its text.
+  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
+  return Json::array({{{"range", rangeOf(index.text(), all, workspace.units)}, {"newText", text}}});
 }
 
 } // namespace dotek::lsp

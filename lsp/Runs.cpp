@@ -228,13 +228,65 @@ constexpr std::array kCommands = {
     NamedCommand{"preview", true, preview},
 };
 
+// The folders of cycles that a Prog prints, with the line that asks for each.
+struct Printed {
+  std::string name, folder;
+  std::uint32_t line = 0; // from 0
+};
+
+std::vector<Printed> printedBy(const Document& prog, const Index& index) {
+  std::vector<Printed> out;
+  const std::vector<std::string> folders = Workspace::cycleFolders(prog.path);
+  for (const Occurrence& one : index.occurrences) {
+    if (!one.key.starts_with("cycle ")) continue;
+    const std::string name = one.key.substr(6);
+    const auto folder = std::find_if(folders.begin(), folders.end(), [&](const std::string& path) {
+      return fs::path(path).filename() == name;
+    });
+    if (folder != folders.end()) out.push_back({name, *folder, index.text().lineOf(one.range.begin) - 1});
+  }
+  return out;
+}
+
+// The cycle that a command on a Prog is about: the one that is named, the last one that the text asks for up
+// to the line of the cursor, or the only one.
+std::string cycleOfProg(const Document& prog, const Index& index, const Json& params) {
+  const std::vector<Printed> printed = printedBy(prog, index);
+  if (printed.empty())
+    throw Refusal{kRequestFailed,
+                  "no folder of a cycle that this Prog prints lies beside it; open a file of the "
+                  "cycle, whose dotek.toml names the Prog (`prog`)"};
+  const std::string named = wordOf(params, "cycle", "");
+  std::set<std::string> names;
+  for (const Printed& one : printed) {
+    names.insert(one.name);
+    if (one.name == named) return one.folder;
+  }
+  const auto position = params.find("position");
+  const bool placed = named.empty() && position != params.end() && position->is_object();
+  const Printed* last = nullptr;
+  for (const Printed& one : printed)
+    if (placed && one.line <= position->value("line", 0u) && (last == nullptr || one.line >= last->line))
+      last = &one;
+  if (last != nullptr) return last->folder;
+  if (named.empty() && names.size() == 1) return printed.front().folder;
+  std::string all;
+  for (const std::string& name : names)
+    all += (all.empty() ? "`" : ", `") + name + "`";
+  throw Refusal{kRequestFailed, named.empty()
+                                    ? "this Prog prints " + all +
+                                          "; place the cursor in the branch of one, or name it (`cycle`)"
+                                    : "`" + named + "` is no cycle beside this Prog, which prints " + all};
+}
+
 Asked askedOf(Workspace& workspace, const Json& params, const NamedCommand& command) {
   Asked out;
   out.document = &documentOf(workspace, params);
   const Index& index = workspace.index(*out.document);
   if (!index.isRead()) throw Refusal{kRequestFailed, "the text is in no language that Dotek reads"};
   out.post = index.post;
-  out.input = Workspace::unitOf(out.document->path);
+  const bool prog = index.kind == std::optional(InputKind::Prog);
+  out.input = prog ? cycleOfProg(*out.document, index, params) : Workspace::unitOf(out.document->path);
   out.target = wordOf(params, "target", "");
   const std::string format = wordOf(params, "format", command.page && !index.post ? "html" : "text");
   if (format != "html" && format != "text") throw Refusal{kInvalidParams, "`format` is `html` or `text`"};
@@ -244,7 +296,10 @@ Asked askedOf(Workspace& workspace, const Json& params, const NamedCommand& comm
   out.common.host = textsOf(params, "host");
   out.variables = textsOf(params, "var");
   out.call = wordOf(params, "call", "");
-  if (out.cycleFolder()) out.source.prog = project::flagDefaultsOf({out.input}).prog;
+  if (prog)
+    out.source.prog = out.document->path;
+  else if (out.cycleFolder())
+    out.source.prog = project::flagDefaultsOf({out.input}).prog;
   return out;
 }
 
@@ -292,6 +347,7 @@ Json execute(Workspace& workspace, const Json& params) {
     throw Refusal{kInvalidParams, "the command takes the URI of a document"};
   Json asked = {{"command", name.substr(6)}, {"textDocument", {{"uri", arguments[0]}}}};
   if (arguments.size() > 1) asked["target"] = arguments[1];
+  if (arguments.size() > 2) asked["cycle"] = arguments[2];
   return runCommand(workspace, asked);
 }
 
@@ -311,6 +367,20 @@ Json codeLenses(Workspace& workspace, const Json& params) {
   };
   if (index.post) {
     add("run", "dotek.run");
+    return out;
+  }
+  if (*index.kind == InputKind::Prog) {
+    std::set<std::string> seen;
+    for (const Printed& one : printedBy(document, index)) {
+      if (!seen.insert(one.name).second) continue;
+      const Json place = {{"line", one.line}, {"character", 0}};
+      for (const char* command : {"post", "convert", "verify", "preview"})
+        out.push_back({{"range", {{"start", place}, {"end", place}}},
+                       {"command",
+                        {{"title", fmt::format("{} {}", command, one.name)},
+                         {"command", std::string("dotek.") + command},
+                         {"arguments", {document.uri, nullptr, one.name}}}}});
+    }
     return out;
   }
   const bool folder = Workspace::unitOf(document.path) != document.path;

@@ -1,7 +1,9 @@
 #include "lsp/Workspace.h"
 
 #include "project/CycleFolder.h"
+#include "project/InputKind.h"
 #include "project/Settings.h"
+#include "support/Ascii.h"
 #include "support/Printable.h"
 
 #include <algorithm>
@@ -85,12 +87,36 @@ std::string& Workspace::writable(const std::string& path) {
   return (*buffers_)[path];
 }
 
+void Workspace::readKinds() {
+  const std::map<std::string, std::string> byLanguage = {{"dotek-macrob", "nc"},
+                                                         {"dotek-mikroprog", "suf"},
+                                                         {"dotek-cycle", "cycle"},
+                                                         {"dotek-compost", "prog"},
+                                                         {"gcode", "nc"}};
+  std::map<std::string, std::string> out;
+  for (const auto& [uri, document] : documents_) {
+    const auto named = byLanguage.find(document.language);
+    const auto byName = project::kindByFileName(document.path);
+    const std::string ending = lowerCase(fs::path(document.path).extension().string());
+    if (named != byLanguage.end())
+      out[document.path] = named->second;
+    else if (byName)
+      out[document.path] = project::kindName(*byName);
+    else if (ending == ".cps" || ending == ".cpi")
+      out[document.path] = "cps";
+    else if (postOf(document.path) == document.path)
+      out[document.path] = "prog";
+  }
+  kinds_ = std::make_shared<const std::map<std::string, std::string>>(std::move(out));
+}
+
 bool Workspace::open(const std::string& uri, const std::string& language, std::int64_t version,
                      std::string text) {
   const std::optional<std::string> path = pathOf(uri);
   if (!path) return false;
   documents_[uri] = {*path, uri, language, version};
   writable(*path) = std::move(text);
+  readKinds();
   changed(*path);
   return true;
 }
@@ -122,6 +148,7 @@ void Workspace::close(const std::string& uri) {
   if (at == documents_.end()) return;
   const std::string path = at->second.path;
   documents_.erase(at);
+  readKinds();
   writable(path);
   buffers_->erase(path);
   changed(path);
@@ -129,6 +156,7 @@ void Workspace::close(const std::string& uri) {
 
 void Workspace::touchAll() {
   onDisk_.clear(); // settings may be others
+  readKinds();
   for (const auto& [uri, document] : documents_)
     changed(document.path);
 }
@@ -141,6 +169,7 @@ const Document* Workspace::find(const std::string& uri) const {
 driver::CommonOptions Workspace::options(const std::vector<std::string>& inputs) const {
   driver::CommonOptions out;
   out.buffers = buffers_;
+  out.bufferKinds = kinds_;
   out.scriptProgram = scriptProgram_;
   project::FlagDefaults defaults = project::flagDefaultsOf(inputs);
   out.data = std::move(defaults.data);

@@ -86,16 +86,18 @@ private:
   void keep(const driver::Outcome& outcome, const std::vector<std::string>& inputs,
             const std::string& otherwise, std::map<std::string, std::vector<Found>>& byPath) const;
   std::string& writable(const std::string& path);
+  void readKinds();
   void changed(const std::string& path);
 
   std::string scriptProgram_;
   std::map<std::string, Document> documents_; // by uri
   // Replaced and not changed where a command may still read it.
   std::shared_ptr<std::map<std::string, std::string>> buffers_;
-  std::set<std::string> changed_;                         // units
-  std::map<std::string, std::set<std::string>> told_;     // by unit: paths that have findings
-  std::map<std::string, std::vector<Found>> found_;       // by path
-  std::map<std::string, std::unique_ptr<Index>> indices_; // by path
+  std::shared_ptr<const std::map<std::string, std::string>> kinds_; // CommonOptions::bufferKinds
+  std::set<std::string> changed_;                                   // units
+  std::map<std::string, std::set<std::string>> told_;               // by unit: paths that have findings
+  std::map<std::string, std::vector<Found>> found_;                 // by path
+  std::map<std::string, std::unique_ptr<Index>> indices_;           // by path
   struct OnDisk {
     std::filesystem::file_time_type time;
     std::uintmax_t size = 0;

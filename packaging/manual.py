@@ -38,6 +38,8 @@ class Flag:
         for name in self.names:
             if name in TABLES:
                 return ("table", TABLES[name])
+            if name in ("--select", "--ignore"):
+                return ("codes",)
         if FOLDERS.search(self.value):
             return ("folders",)
         return ("files",) if FILES.search(self.value) else ("nothing",)
@@ -218,11 +220,19 @@ def table_words(name):
     return "dotek list " + name + " 2>/dev/null | cut -d' ' -f1"
 
 
+# Rules stand below headings, which begin with a capital; codes of messages stand at the margin.
+CODE_WORDS = "{ dotek list rules; dotek list messages; } 2>/dev/null | sed -nE 's/^ *([a-z][a-z0-9-]+) .*/\\1/p'"
+# Pages below "Pages:", without those that stand for many.
+TOPIC_WORDS = "dotek help 2>/dev/null | sed -nE 's/^  ([a-z][a-z0-9./-]*) .*/\\1/p'"
+
+
 def bash_reply(kind):
     if kind[0] == "choices":
         return "COMPREPLY=($(compgen -W '" + " ".join(kind[1]) + "' -- \"$cur\"))"
     if kind[0] == "table":
         return 'COMPREPLY=($(compgen -W "$(' + table_words(kind[1]) + ')" -- "$cur"))'
+    if kind[0] == "codes":
+        return 'COMPREPLY=($(compgen -W "$(' + CODE_WORDS + ')" -- "$cur"))'
     if kind[0] == "nothing":
         return "COMPREPLY=()"
     return "COMPREPLY=($(compgen -%s -- \"$cur\")); compopt -o filenames" % ("d" if kind[0] == "folders" else "f")
@@ -250,7 +260,15 @@ def bash(commands):
         out += ["    %s)" % command.name, "      if [[ $cur == -* ]]; then COMPREPLY=($(compgen -W '%s' -- \"$cur\")); return; fi" % names]
         words = words_of(command)
         if command.name == "explain":
-            out.append("      COMPREPLY=($(compgen -W \"$({ dotek list rules; dotek list messages; } 2>/dev/null | cut -d' ' -f1)\" -- \"$cur\")); return ;;")
+            out.append("      " + bash_reply(("codes",)) + "; return ;;")
+        elif command.name == "help":
+            out.append("      COMPREPLY=($(compgen -W \"$(" + TOPIC_WORDS + ")\" -- \"$cur\")); return ;;")
+        elif command.name == "list":
+            out += ["      if ((COMP_CWORD == 2)); then COMPREPLY=($(compgen -W '%s' -- \"$cur\")); return; fi" % " ".join(words),
+                    "      COMPREPLY=($(compgen -W \"$(dotek list \"${COMP_WORDS[2]}\" 2>/dev/null | sed -nE 's/^([a-z][a-z0-9-]+) .*/\\1/p')\" -- \"$cur\")); return ;;"]
+        elif command.name == "new":
+            out += ["      if ((COMP_CWORD == 2)); then COMPREPLY=($(compgen -W '%s' -- \"$cur\")); return; fi" % " ".join(words),
+                    "      if [[ ${COMP_WORDS[2]} == macros ]]; then COMPREPLY=($(compgen -W dotek -- \"$cur\")); return; fi ;;"]
         elif words:
             out.append("      if ((COMP_CWORD == 2)); then COMPREPLY=($(compgen -W '%s' -- \"$cur\")); return; fi ;;" % " ".join(words))
         else:
@@ -278,6 +296,8 @@ def zsh_action(kind):
         return "(" + " ".join(kind[1]) + ")"
     if kind[0] == "table":
         return "{compadd -- ${(f)\"$(" + table_words(kind[1]) + ")\"}}"
+    if kind[0] == "codes":
+        return "{compadd -- ${(f)\"$(" + CODE_WORDS + ")\"}}"
     return {"folders": "_files -/", "files": "_files", "nothing": " "}[kind[0]]
 
 
@@ -297,7 +317,9 @@ def zsh(commands):
                 out.append("    " + quoted(spec) + " \\")
         words = words_of(command)
         if command.name == "explain":
-            out.append("    " + quoted("1:code:{compadd -- ${(f)\"$({ dotek list rules; dotek list messages } 2>/dev/null | cut -d' ' -f1)\"}}"))
+            out.append("    " + quoted("1:code:" + zsh_action(("codes",))))
+        elif command.name == "help":
+            out.append("    " + quoted("1:topic:{compadd -- ${(f)\"$(" + TOPIC_WORDS + ")\"}}"))
         else:
             out.append("    " + (quoted("1:word:(" + " ".join(words) + ")") + " " if words else "") + quoted("*:file:_files"))
         out.append("  ;;")
@@ -318,13 +340,16 @@ def fish(commands):
         if words:
             out.append(seen + " -a " + fish_quoted(" ".join(words)))
         if command.name == "explain":
-            out.append(seen + " -f -a \"(begin; dotek list rules; dotek list messages; end 2>/dev/null | string split -f1 ' ')\"")
+            out.append(seen + " -f -a " + fish_quoted("(begin; dotek list rules; dotek list messages; end 2>/dev/null | string match -rg '^ *([a-z][a-z0-9-]+) ')"))
+        if command.name == "help":
+            out.append(seen + " -f -a " + fish_quoted("(dotek help 2>/dev/null | string match -rg '^  ([a-z][a-z0-9./-]*) ')"))
         for flag in all_flags(command):
             names = " ".join(("-l " + name[2:]) if name.startswith("--") else "-s " + name[1:] for name in flag.names)
             line = seen + " " + names
             kind = flag.kind()
             if kind:
-                line += {"choices": " -x -a ", "table": " -x -a ", "folders": " -x -a '(__fish_complete_directories)'", "files": " -r -F", "nothing": " -x"}[kind[0]]
+                line += {"choices": " -x -a ", "table": " -x -a ", "folders": " -x -a '(__fish_complete_directories)'", "files": " -r -F", "nothing": " -x",
+                         "codes": " -x -a " + fish_quoted("(dotek list rules 2>/dev/null | string match -rg '^ *([a-z][a-z0-9-]+) ')")}[kind[0]]
                 line += fish_quoted(" ".join(kind[1])) if kind[0] == "choices" else ""
                 line += '"(dotek list %s 2>/dev/null | string split -f1 \' \')"' % kind[1] if kind[0] == "table" else ""
             out.append(line + " -d " + fish_quoted(flag.text))

@@ -338,6 +338,15 @@ std::optional<InputKind> kindByName(View name) {
   return at == kKinds.end() ? std::nullopt : std::optional(*at);
 }
 
+std::optional<InputKind> kindByFileName(View name) {
+  const std::size_t slash = name.find_last_of("/\\");
+  return kindOfName(upperCase(slash == View::npos ? name : name.substr(slash + 1)));
+}
+
+bool showsNothing(const Recognition& recognition) {
+  return !recognition.kind && (recognition.reason.empty() || recognition.reason == kUnknown);
+}
+
 std::string otherwise(const Recognition& recognition) {
   return recognition.reason.empty() || recognition.reason == kUnknown ? "" : " (" + recognition.reason + ")";
 }

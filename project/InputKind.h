@@ -35,6 +35,11 @@ inline constexpr std::size_t kRecognisedBytes = 128 * 1024;
 Recognition recognise(std::string_view fileName, std::string_view bytes,
                       std::optional<InputKind> expected = std::nullopt);
 
+// By its name alone, as `touch.mac`; nothing: the name does not say.
+std::optional<InputKind> kindByFileName(std::string_view name);
+// A text that shows no language, and nothing else either.
+bool showsNothing(const Recognition& recognition);
+
 // For a message about an input that is of no kind: " (an image)"; "" where nothing more is known.
 std::string otherwise(const Recognition& recognition);
 

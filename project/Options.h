@@ -42,6 +42,9 @@ struct CommonOptions {
   // Texts that an editor holds instead of what is in the file, UTF-8, by absolute path without dots; nullptr:
   // none. Inputs are read from here first.
   std::shared_ptr<const std::map<std::string, std::string>> buffers;
+  // What the editor takes such a text for, by the same paths: a kind as --from names it, or `cps`. It counts
+  // where the text itself does not say, as a text of a few letters; nullptr: nothing is said.
+  std::shared_ptr<const std::map<std::string, std::string>> bufferKinds;
   // What was read from pipes; copies of the options share it.
   std::shared_ptr<StreamInputs> streams = std::make_shared<StreamInputs>();
 };

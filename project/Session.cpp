@@ -1,3 +1,4 @@
+#include "project/PostShape.h"
 #include "project/Session.h"
 
 #include "project/Assumptions.h"
@@ -157,6 +158,12 @@ const Recognition* Session::kindOf(const std::string& path, Diagnostics& diagnos
   if (!text) return nullptr;
   blankTape(*text);
   Recognition found = recognise(stream ? "" : path, *text, expected);
+  // Longer texts are what `dotek lint` takes them for.
+  constexpr std::size_t kBegun = 80;
+  if (showsNothing(found) && text->size() <= kBegun && buffer(path) != nullptr && options_.bufferKinds)
+    if (const auto at = options_.bufferKinds->find(wholeName(path)); at != options_.bufferKinds->end())
+      found = at->second == "cps" ? Recognition{std::nullopt, std::string(kPostInput)}
+                                  : Recognition{kindByName(at->second), "the editor"};
   // Of a longer file only the beginning was read.
   if (found.kind && !whole && text->size() < kRecognisedBytes && text->size() <= options_.limits.inputBytes)
     whole_.emplace(path, std::move(*text));

@@ -35,9 +35,10 @@ public:
     CHECK(server_.receive(Json{{"jsonrpc", "2.0"}, {"method", method}, {"params", params}}.dump()).empty());
   }
   // Opens a text and gives what is found in it.
-  Json open(const std::string& path, const std::string& text) {
-    note("textDocument/didOpen",
-         {{"textDocument", {{"uri", uriOf(path)}, {"languageId", "nc"}, {"version", 1}, {"text", text}}}});
+  Json open(const std::string& path, const std::string& text, const std::string& language = "nc") {
+    note(
+        "textDocument/didOpen",
+        {{"textDocument", {{"uri", uriOf(path)}, {"languageId", language}, {"version", 1}, {"text", text}}}});
     return findings(path);
   }
   // Findings of the path that the server sends now.

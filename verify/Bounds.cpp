@@ -16,6 +16,8 @@ namespace dotek::verify {
 
 namespace {
 
+constexpr double kMostMet = 100000; // a bound beyond is none that a person types
+
 constexpr std::uint32_t kMaxSteps = 10'000;
 constexpr double kHalf = 0.5;
 
@@ -255,7 +257,7 @@ std::optional<Case> Bounds::meet(const Bound& bound, const std::vector<DrawField
     if (*now == 0) return drawn;
     if (*now == *lastMargin) return std::nullopt;
     const double next = roundedTo(value - *now * (value - last) / (*now - *lastMargin), field.decimals);
-    if (!(std::abs(next) < 1000) || next == value) return std::nullopt;
+    if (!(std::abs(next) < kMostMet) || next == value) return std::nullopt;
     last = std::exchange(value, next);
     lastMargin = now;
   }

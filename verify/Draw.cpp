@@ -13,8 +13,9 @@ namespace {
 
 using ir::Kind;
 
-constexpr double kMost = 999; // numbers stay below
-constexpr double kWide = 100; // mm: how far a length goes
+constexpr double kMost = 999;       // numbers stay below
+constexpr double kMostFeed = 99999; // so do feeds, whose limits are often wider
+constexpr double kWide = 100;       // mm: how far a length goes
 constexpr std::uint32_t kFirstSystem = 54, kLastSystem = 59;
 constexpr double kMostShift = 0.3; // mm, X and Y
 constexpr double kLeastRise = 0.02, kMostRise = 0.4;
@@ -42,8 +43,17 @@ double towardsZero(double value) {
   return out == 0 ? 0 : out;
 }
 
+// The greatest size of a value: feeds go beyond the limits that the checks have for them.
+double mostOf(const DrawField& field) {
+  double most = std::max(kMost - stepOf(field), std::abs(field.initial.value_or(0)));
+  if (field.kind == Kind::Feed)
+    for (const double threshold : field.thresholds)
+      if (std::abs(threshold) <= kMostFeed) most = std::max(most, std::abs(threshold) + kWide);
+  return most;
+}
+
 double limited(const DrawField& field, double value) {
-  const double most = std::max(kMost - stepOf(field), std::abs(field.initial.value_or(0)));
+  const double most = mostOf(field);
   return rounded(std::clamp(value, -most, most), field.decimals);
 }
 
@@ -89,8 +99,9 @@ double besideThresholds(const DrawField& field, const std::vector<double>& sorte
 // Constants that tell more than the sign does.
 std::vector<double> usableThresholds(const DrawField& field) {
   std::vector<double> out;
+  const double most = field.kind == Kind::Feed ? kMostFeed : kMost;
   for (const double threshold : field.thresholds)
-    if (std::abs(threshold) < kMost && threshold != 0) out.push_back(threshold);
+    if (std::abs(threshold) < most && threshold != 0) out.push_back(threshold);
   std::sort(out.begin(), out.end());
   return out;
 }
@@ -376,7 +387,7 @@ std::vector<Draws::Edge> Draws::edgesOf(std::size_t index, std::uint64_t most) c
   if (isSize) out.push_back({index, Means::Radius, -1, 0});
   for (const double threshold : field.thresholds) {
     if (out.size() >= most) return out;
-    if (std::abs(threshold) > largest) continue;
+    if (std::abs(threshold) > std::max(largest, mostOf(field))) continue;
     add(threshold);
     add(threshold - step);
     add(threshold + step);

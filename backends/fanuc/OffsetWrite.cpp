@@ -4,6 +4,7 @@
 #include "backends/fanuc/Uses.h"
 #include "ir/Evaluate.h"
 #include "ir/Liveness.h"
+#include "ir/Walk.h"
 #include "support/Decimal.h"
 #include "support/messages/Fanuc.h"
 
@@ -127,7 +128,7 @@ struct NoSystem {
 };
 
 // The first value of `id` that the checks let pass, where they let only such pass as `system` makes no work
-// system of: then whoever calls the program gets an alarm. Values that end like the largest and the smallest
+// system of: then whoever calls the program gets an alarm. Values that end like the largest or the smallest
 // are those that the checks of `id` reject, whatever the other arguments are.
 std::optional<NoSystem> passesNoSystem(const State& state, ir::VariableId id, const NamedSystem& system) {
   constexpr double kNone = 99999;
@@ -137,11 +138,11 @@ std::optional<NoSystem> passesNoSystem(const State& state, ir::VariableId id, co
       const ir::CheckRun run = ir::runChecks(state.cycle, environment, kMaxSteps);
       return run.end == ir::CheckRun::End::Alarm ? run.at : nullptr;
     };
-    const ir::CycleStatement* const rejected = alarm(kNone);
-    if (rejected == nullptr || alarm(-kNone) != rejected) continue;
+    const ir::CycleStatement *const above = alarm(kNone), *const below = alarm(-kNone);
+    if (above == nullptr || below == nullptr) continue;
     std::optional<NoSystem> first;
     for (int value = 0; value <= kMostTried; ++value) {
-      if (alarm(value) == rejected) continue;
+      if (const auto* const end = alarm(value); end == above || end == below) continue;
       const ir::Scalar named = ir::evaluate(*system.number, withLocals(state.cycle, environment));
       if (!named.known() || names(named.value, system.extended)) return std::nullopt;
       if (!first) first = {static_cast<double>(value), named.value};
@@ -255,7 +256,31 @@ void writeWait(State& state, const ir::Origin& origin) {
   if (wait != nullptr && wait->grade != "assumed") state.sheet.add(codeText(*wait), origin);
 }
 
+namespace {
+
+// A variable of the machine that the branch or a macro that it calls may set before it is read, or a result.
+bool comesLater(const State& state, const ir::Expression& node) {
+  if (std::holds_alternative<ir::MeasuredResult>(node.node)) return true;
+  const auto* variable = std::get_if<ir::MachineVariable>(&node.node);
+  if (variable == nullptr) return false;
+  const double* number = ir::constantValue(variable->number);
+  // #100 to #199: where macros leave their results.
+  if (number == nullptr || (*number >= 100 && *number <= 199)) return true;
+  bool stored = false;
+  for (const ir::CycleStatement& statement : state.cycle.body)
+    if (const auto* store = std::get_if<ir::Store>(&statement.node)) {
+      const double* there = ir::constantValue(store->number);
+      stored = stored || there == nullptr || *there == *number;
+    }
+  return stored;
+}
+
+} // namespace
+
 bool knownAtEntry(const State& state, const ir::ExpressionPtr& value) {
+  bool later = false;
+  ir::eachNode(value, [&](const ir::Expression& node) { later = later || comesLater(state, node); });
+  if (later) return false;
   const auto ids = variablesOf(value);
   return std::all_of(ids.begin(), ids.end(), [&](ir::VariableId id) {
     // What the checks compute is known when they are done, before anything moves; a branch has none.

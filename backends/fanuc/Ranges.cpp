@@ -111,6 +111,11 @@ std::string rangeText(const State& state, ir::VariableId id) {
     environment[id] = ir::Scalar::of(value);
     return ir::runChecks(state.cycle, environment, kMaxSteps).end == ir::CheckRun::End::Passes;
   };
+  // What the dialog offers and the others at their defaults reject is no limit of this one.
+  if (const auto list = state.options.choices.find(id); list != state.options.choices.end())
+    if (std::any_of(list->second.begin(), list->second.end(),
+                    [&](const Choice& choice) { return !passes(choice.value); }))
+      return kSee;
   // Constants and the gaps between them, in turn: gap, constant, gap, ..., gap.
   std::vector<double> at(compared.constants.begin(), compared.constants.end());
   std::vector<bool> good;

@@ -105,6 +105,8 @@ local function run(name, options, buffer, asked)
   end
   local params = vim.tbl_extend("force", { command = name, format = name == "preview" and "html" or "text" }, options or {})
   params.textDocument = { uri = vim.uri_from_bufnr(buffer) }
+  -- In a Prog the cycle of the branch that the cursor is in.
+  params.position = params.position or { line = vim.api.nvim_win_get_cursor(0)[1] - 1, character = 0 }
   request(client, "dotek/run", params, buffer, function(result)
     asked = asked or {}
     local given = false
@@ -146,7 +148,9 @@ end
 -- Lenses and code actions call these by name.
 for _, name in ipairs(commands) do
   vim.lsp.commands["dotek." .. name] = function(command, context)
-    run(name, { target = (command.arguments or {})[2] }, context and context.bufnr)
+    local given = command.arguments or {}
+    local target = given[2] ~= vim.NIL and given[2] or nil
+    run(name, { target = target, cycle = given[3] }, context and context.bufnr)
   end
 end
 vim.lsp.commands["dotek.explain"] = function(command)

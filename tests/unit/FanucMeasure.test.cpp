@@ -103,6 +103,42 @@ TEST_CASE("fanuc measure: checks that let only such values pass as name no syste
   }
 }
 
+TEST_CASE("fanuc measure: the same where the checks reject on each side in a statement of its own") {
+  for (const double first : {1.0, 54.0}) {
+    Maker cycle;
+    const VariableId g = cycle.field("G", first + 1, ir::Kind::WorkOffset);
+    const VariableId x = cycle.field("X", 0);
+    cycle.refuseIf(ir::compare(Relation::Less, use(g), number(first)), "not in its list");
+    cycle.refuseIf(ir::compare(Relation::Greater, use(g), number(first + 5)), "not in its list");
+    cycle.surface(ir::Axis::X, use(x), ir::binary(ir::BinaryOp::Add, use(g), number(53)), use(x))
+        .origin.arguments = {{'S', g}};
+    std::get<ir::Measure>(cycle.cycle.body[0].node).target->frame = ir::Frame::Work;
+    const Emission out = Target("inspection-plus").emit(cycle.cycle);
+    CAPTURE(first);
+    CHECK(out.codes().contains("system-never-named") == (first > 1));
+  }
+}
+
+TEST_CASE("fanuc measure: a system in a variable of the machine is looked at after the branch has set it") {
+  for (const bool set : {true, false}) {
+    Maker cycle;
+    const VariableId g = cycle.field("G", 56, ir::Kind::WorkOffset);
+    const VariableId x = cycle.field("X", 0);
+    const auto held = [] { return ir::machineVariable(number(550)); };
+    if (set) cycle.add(ir::Store{number(550), use(g)});
+    cycle.surface(ir::Axis::X, use(x), held(), use(x));
+    std::get<ir::Measure>(cycle.cycle.body.back().node).target->frame = ir::Frame::Work;
+    const Emission out = Target().emit(cycle.cycle);
+    const std::string text = out.all();
+    CAPTURE(text);
+    const std::size_t check = text.find("IF[#550 LT 54.]"), call = text.find("P9023");
+    REQUIRE(check != std::string::npos);
+    REQUIRE(call != std::string::npos);
+    CHECK(check < call);
+    if (set) CHECK(text.find("#550=#") < check);
+  }
+}
+
 TEST_CASE("fanuc measure: a bore") {
   Maker cycle;
   const VariableId d = cycle.field("d", 30), i = cycle.field("i", 30), j = cycle.field("j", 30);

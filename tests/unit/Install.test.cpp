@@ -83,6 +83,12 @@ TEST_CASE("install: the completions know commands, flags and values") {
   CHECK(completed("dotek convert --to f").find(" fanuc ") != std::string::npos);
   CHECK(completed("dotek sim --control fanuc-31").find(" fanuc-31i-b ") != std::string::npos);
   CHECK(completed("dotek explain open-if").find(" open-if-at-return ") != std::string::npos);
+  CHECK(completed("dotek explain goto-t").find(" goto-target-missing ") != std::string::npos);
+  CHECK(completed("dotek explain NC") == "  \n");
+  CHECK(completed("dotek lint --select approach-unch").find(" approach-unchecked ") != std::string::npos);
+  CHECK(completed("dotek list controls haas").find(" haas-ngc ") != std::string::npos);
+  CHECK(completed("dotek help tutorials/my").find(" tutorials/my-first-cycle ") != std::string::npos);
+  CHECK(completed("dotek new macros d").find(" dotek ") != std::string::npos);
   CHECK(completed("dotek list cyc").find(" cycles ") != std::string::npos);
   for (const auto& [shell, file] : {std::pair{"zsh", "zsh/vendor-completions/_dotek"},
                                     std::pair{"fish", "fish/vendor_completions.d/dotek.fish"}}) {

@@ -238,3 +238,27 @@ TEST_CASE("lsp: a cycle and the post that dotek.toml names are checked together"
   for (const Json& one : client.findings(shop.define))
     CHECK_MESSAGE((one["code"] != "field-never-printed" || one["range"]["start"]["line"] != 1), one.dump());
 }
+
+TEST_CASE("lsp: a text of a few letters is what the editor says, or its name") {
+  const TestFolder folder("lsp-young");
+  struct Young {
+    const char* file;
+    const char* language;
+    const char* text;
+  };
+  for (const Young& one : {Young{"a.suf", "dotek-mikroprog", "N"}, Young{"b.suf", "", "\xC5\xAF"},
+                           Young{"c.cps", "javascript", "description"}, Young{"d.nc", "dotek-macrob", "O"},
+                           Young{"e.txt", "dotek-compost", "a:"}, Young{"f.txt", "dotek-compost", "IF"},
+                           Young{"g.cycle", "dotek-cycle", "cy"}, Young{"h.mac", "dotek-gibbs", "x"}}) {
+    const std::string path = folder.write(one.file, one.text);
+    Client client;
+    CAPTURE(one.file);
+    for (const Json& finding : client.open(path, one.text, one.language))
+      CHECK(finding["code"] != "unknown-kind");
+  }
+  // What tells what it is, is that.
+  const std::string text = "%\nO1\nG0 X1.\nM30\n%\n";
+  const std::string path = folder.write("z.txt", text);
+  Client client;
+  CHECK(codes(client.open(path, text, "plaintext")).empty());
+}

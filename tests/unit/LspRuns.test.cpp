@@ -129,3 +129,36 @@ TEST_CASE("lsp: dotek/run refuses what it does not know") {
   }
   CHECK(client.ask("dotek/run", asked(path + "x", "run")).contains("error"));
 }
+
+TEST_CASE("lsp: commands in a post are about one of its cycles") {
+  const TestFolder folder("lsp-runs-prog");
+  const std::filesystem::path from = tests::root() / "examples";
+  for (const char* name : {"CycleData.dlg", "CycleData.mac", "DefineData.txt", "ToolPath.mac"})
+    for (const char* cycle : {"surface-x", "surface-z"})
+      folder.write(std::string(cycle) + "/" + name, tests::readAll(from / cycle / name));
+  std::string text = tests::readAll(from / "post.txt");
+  text.insert(text.find("IF CycleType?('surface-x')"), "IF CycleType?('surface-z')\n SeqC 'M0' EOL\nEND\n");
+  const std::string path = folder.write("post.txt", text);
+  Client client;
+  client.open(path, text);
+  const std::vector<std::string> all = lenses(client, path);
+  CHECK(std::count(all.begin(), all.end(), "convert surface-x") == 1);
+  CHECK(std::count(all.begin(), all.end(), "verify surface-z") == 1);
+  const Json host = {{"clearance", 5}};
+  const Json one = client.result("dotek/run", asked(path, "post", {{"host", host}, {"cycle", "surface-x"}}));
+  CHECK_MESSAGE(textOf(one).find("G65 P9770") != std::string::npos, one.dump());
+  const std::size_t at = text.find("'surface-z'");
+  REQUIRE(at != std::string::npos);
+  const auto line = std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
+  const Json byLine = client.result(
+      "dotek/run", asked(path, "preview", {{"position", {{"line", line + 1}, {"character", 0}}}}));
+  CHECK(byLine["status"] == 0);
+  const Json none = client.ask("dotek/run", asked(path, "post"));
+  CHECK(none["error"]["message"].get<std::string>().find("`surface-x`") != std::string::npos);
+  CHECK(client.ask("dotek/run", asked(path, "post", {{"cycle", "other"}})).contains("error"));
+  const Json byLens =
+      client.result("workspace/executeCommand",
+                    {{"command", "dotek.convert"}, {"arguments", {uriOf(path), nullptr, "surface-x"}}});
+  CHECK(byLens["status"] == 0);
+  CHECK(textOf(byLens).find("O") != std::string::npos);
+}

@@ -195,10 +195,10 @@ TEST_CASE("lsp: repairs, suppressions and layout are offered") {
   REQUIRE(edits.size() == 1);
   CHECK(edits[0]["newText"].get<std::string>().starts_with("cycle reach \"how far\"\n"));
 
-  // Nothing but blank lines is of no language.
+  // What has no layout is left as it is: an editor may ask for each file that it saves.
   const std::string blank = folder.write("blank.cps", "\n\n\n");
   client.open(blank, "\n\n\n");
-  CHECK(client.ask("textDocument/formatting", at(blank, 0, 0)).contains("error"));
+  CHECK(client.result("textDocument/formatting", at(blank, 0, 0)).empty());
 
   const std::string program = "O7302\nG0Z5\nX10.Y20.\nX0.Y5.\nZ3.\n#1=#1\nM99\n";
   const std::string ncPath = folder.write("O7302.nc", program);

@@ -106,6 +106,39 @@ TEST_CASE("manual: the examples of each command run, and its page is there") {
   CHECK(commands > 15);
 }
 
+TEST_CASE("manual: each part of `dotek new` has its examples, and they run") {
+  const std::string overview = runDotek({"new", "--help"}, root()).out;
+  const std::size_t at = overview.find("\nSubcommands:\n");
+  REQUIRE(at != std::string::npos);
+  const ProcessFolder folder;
+  copyExamples(folder);
+  int parts = 0;
+  for (const std::string& line : linesOfText(overview.substr(at + 14))) {
+    if (line.size() < 3 || !line.starts_with("  ") || line[2] == ' ') continue;
+    const std::string part = line.substr(2, line.find(' ', 2) - 2);
+    const std::string help = runDotek({"new", part, "--help"}, root()).out;
+    const std::size_t more = help.find("\nMore: `dotek help "), examples = help.find("\nExamples:\n");
+    REQUIRE_MESSAGE(more != std::string::npos, part);
+    REQUIRE_MESSAGE(examples != std::string::npos, part);
+    const std::string topic = help.substr(more + 19, help.find('`', more + 19) - more - 19);
+    CHECK_MESSAGE(!dotek::cli::helpOn(topic).empty(), part << ": " << topic);
+    const ShellResult result =
+        folder.run("rm -f shop.cps\nset -e\n" + help.substr(examples + 11, more - examples - 11));
+    CHECK_MESSAGE(result.status == 0, part << ": " << result.err);
+    ++parts;
+  }
+  CHECK(parts == 5);
+}
+
+TEST_CASE("manual: a misspelt command, part of a command or flag is answered with the one that is meant") {
+  const auto said = [](const std::vector<std::string>& arguments) { return runDotek(arguments, root()).err; };
+  CHECK(said({"lnit", "a.nc"}).find("did you mean `lint`?") != std::string::npos);
+  CHECK(said({"new", "cicle", "x"}).find("did you mean `cycle`?") != std::string::npos);
+  CHECK(said({"--verion"}).find("did you mean `--version`?") != std::string::npos);
+  CHECK(runDotek({"help", "LINT"}, root()).status == 0);
+  CHECK(runDotek({"explain", "GOTO-TARGET-MISSING"}, root()).status == 0);
+}
+
 TEST_CASE("manual: dotek help prints every page of docs/, and those that the program makes") {
   int pages = 0;
   for (const auto& entry : fs::recursive_directory_iterator(root() / "docs")) {

@@ -21,8 +21,8 @@ async function show(result) {
 }
 
 // Runs a command on a text. Values that it refuses to do without are asked for, once each.
-async function run(command, uri, target) {
-  const params = { command, textDocument: { uri }, target };
+async function run(command, uri, target, more) {
+  const params = { command, textDocument: { uri }, target: target || undefined, ...more };
   const asked = new Set();
   for (;;) {
     const result = await client.sendRequest("dotek/run", params);
@@ -50,7 +50,7 @@ async function start() {
     middleware: {
       executeCommand: async (name, args, next) => {
         const command = name.replace(/^dotek\./, "");
-        if (Object.values(commands).includes(command)) return run(command, args[0], args[1]);
+        if (Object.values(commands).includes(command)) return run(command, args[0], args[1], { cycle: args[2] });
         return show(await next(name, args));
       },
     },
@@ -70,7 +70,7 @@ exports.activate = async (context) => {
       vscode.commands.registerCommand("dotek." + name, async () => {
         const editor = vscode.window.activeTextEditor;
         if (!editor || !client) return;
-        await run(command, client.code2ProtocolConverter.asUri(editor.document.uri));
+        await run(command, client.code2ProtocolConverter.asUri(editor.document.uri), undefined, { position: client.code2ProtocolConverter.asPosition(editor.selection.active) });
       }),
     );
   }
