@@ -51,7 +51,8 @@ ProgPiece::Kind pieceKind(const compost::Word& word, const Project& project);
 // none. Points into the block.
 // `expressions`: words with one are among them; else a block that has one gives none.
 std::vector<ProgWord> wordsOf(const ProgBlock& block, const stdlib::Form* form, bool expressions = false);
-// A command of the block prints what the form does not say, any address perhaps: what wordsOf() lacks may be there.
+// A command of the block prints what the form does not say, any address perhaps: what wordsOf() lacks may be
+// there.
 bool printsUnknown(const ProgBlock& block, const stdlib::Form* form);
 // The digits of the first word with this address; "" for none, or a hole.
 std::string digitsOf(const std::vector<ProgWord>& words, char address);

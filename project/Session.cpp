@@ -1,5 +1,5 @@
-#include "project/PostShape.h"
 #include "project/Session.h"
+#include "project/PostShape.h"
 
 #include "project/Assumptions.h"
 #include "stdlib/CodeSpan.h"

@@ -131,9 +131,9 @@ private:
   void noteAlarm(const verify::Record& source, const Values& values);
   void noteEndless(const verify::Case& drawn);
   void noteStopped(const TargetRun& ran, const verify::Case& drawn);
-  void takeRun(CaseResult& result, TargetRun ran, const Values& values) const;
+  void takeRun(CaseResult& result, TargetRun ran, const Values& values, const verify::Record* source) const;
   void noteProbe(CaseResult& result, const verify::Record& record, const Values& values) const;
-  void comparePath(CaseResult& result, const Values& values) const;
+  void comparePath(CaseResult& result, const Values& values, const verify::Record* source) const;
   bool movesItself(const Values& values) const;
   SourceRange sourceOf(SourceRange posted, const Values& values) const;
 

@@ -167,6 +167,19 @@ std::vector<Difference> compare(const DrawnPath& path, const Point3& offset, con
       again.insert(m);
       continue;
     }
+    // The same block once more, in a loop that goes on until it is content: the path draws one round.
+    const bool repeated =
+        next >= path.touches.size() &&
+        std::any_of(program.measures.begin(), program.measures.begin() + static_cast<std::ptrdiff_t>(m),
+                    [&](const Measure& one) { return one.range == measure.range; });
+    const auto isDrawn = [&](const Touch& wanted) {
+      return std::any_of(path.touches.begin(), path.touches.end(),
+                         [&](const DrawnTouch& one) { return meets(wanted, one.touch); });
+    };
+    if (repeated && std::all_of(nominal.begin(), nominal.end(), isDrawn)) {
+      again.insert(m);
+      continue;
+    }
     std::vector<bool> used(nominal.size(), false);
     const std::size_t firstTouch = next;
     for (std::size_t n = 0; n < nominal.size(); ++n, ++next) {
