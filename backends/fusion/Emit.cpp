@@ -12,11 +12,13 @@ namespace dotek::backends::fusion {
 namespace {
 
 // Jumps may lead from G91 to G90: nothing says what our own G90 would have to be put back to.
-bool turnsIncremental(const ir::Cycle& cycle) {
-  return std::any_of(cycle.body.begin(), cycle.body.end(), [](const ir::CycleStatement& statement) {
-    const auto* mode = std::get_if<ir::SetMode>(&statement.node);
-    return mode != nullptr && mode->mode == ir::Mode::Incremental;
-  });
+// nullptr: it stays absolute.
+const ir::CycleStatement* turnsIncremental(const ir::Cycle& cycle) {
+  for (const ir::CycleStatement& statement : cycle.body)
+    if (const auto* mode = std::get_if<ir::SetMode>(&statement.node);
+        mode != nullptr && mode->mode == ir::Mode::Incremental)
+      return &statement;
+  return nullptr;
 }
 
 bool isStraight(const ir::Cycle& cycle) {
@@ -58,6 +60,15 @@ void nameFields(State& state) {
 
 } // namespace
 
+bool callsMacros(const ir::Cycle& cycle) {
+  return std::any_of(cycle.body.begin(), cycle.body.end(), [](const ir::CycleStatement& statement) {
+    const auto* move = std::get_if<ir::Move>(&statement.node);
+    return std::holds_alternative<ir::Measure>(statement.node) ||
+           std::holds_alternative<ir::CallCycle>(statement.node) ||
+           (move != nullptr && move->motion == ir::Motion::Protected);
+  });
+}
+
 State::State(const ir::Cycle& given, const EmitOptions& emitOptions, Diagnostics& report)
     : cycle(given), options(emitOptions), diagnostics(report), prefix(prefixOf(given.name)) {}
 
@@ -65,9 +76,13 @@ std::optional<std::vector<EmittedLine>> emit(const ir::Cycle& cycle, const EmitO
                                              Diagnostics& diagnostics) {
   State state(cycle, options, diagnostics);
   // Jumps that the Prog prints are printed as they are.
-  if ((options.printed.empty() && !options.call) ||
-      (options.foreignMacros && !isStraight(cycle) && turnsIncremental(cycle))) {
+  if (options.printed.empty() && !options.call) {
     state.refuse<diag::FusionNeedsProg>(cycle.range);
+    return std::nullopt;
+  }
+  const ir::CycleStatement* const incremental = turnsIncremental(cycle);
+  if (options.foreignMacros && incremental != nullptr && !isStraight(cycle) && callsMacros(cycle)) {
+    state.refuse<diag::FusionOpaque>(incremental->origin.range(), options.macros.title);
     return std::nullopt;
   }
   if (options.macros.needsSkipPosition && !options.control.variables.skip && ir::probes(cycle)) {

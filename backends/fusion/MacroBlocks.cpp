@@ -60,7 +60,8 @@ bool readsResult(const ir::CycleStatement& statement) {
 
 } // namespace
 
-MacroBlocks::MacroBlocks(State& state, Texts& texts) : state_(state), texts_(texts) {
+MacroBlocks::MacroBlocks(State& state, Texts& texts)
+    : state_(state), texts_(texts), calls_(callsMacros(state.cycle)) {
   constexpr std::string_view kStarts[] = {"start_x", "start_y", "start_z"};
   for (const ir::Axis axis : ir::kAxes) {
     const std::size_t i = ir::indexOf(axis);
@@ -76,7 +77,7 @@ bool MacroBlocks::block(const std::vector<const ir::CycleStatement*>& statements
   replaced_.clear();
   const bool rewritten =
       std::any_of(statements.begin(), statements.end(), [&](const ir::CycleStatement* one) {
-        return isMacro(state_, *one) || std::holds_alternative<ir::Move>(one->node) ||
+        return isMacro(state_, *one) || (calls_ && std::holds_alternative<ir::Move>(one->node)) ||
                (readsResult(*one) && !comparesAlike(*one) && !comparesOthers(*one));
       });
   for (const ir::CycleStatement* one : statements) {
@@ -85,7 +86,7 @@ bool MacroBlocks::block(const std::vector<const ir::CycleStatement*>& statements
         *one,
         [&](const ir::OpaqueBlock& node) {
           opaque_ = &origin;
-          if (!leavesModes(node) && !endsBranch(*one, node)) {
+          if (calls_ && !leavesModes(node) && !endsBranch(*one, node)) {
             state_.refuse<diag::FusionOpaque>(origin.range(), state_.options.macros.title);
             return;
           }

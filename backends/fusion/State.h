@@ -130,6 +130,10 @@ private:
 
 // ---- MacroBlocks.cpp ----
 
+// The branch moves or measures by macros, beside switching the probe: what stands for them in another set has
+// to know position and modes.
+bool callsMacros(const ir::Cycle& cycle);
+
 // Blocks of another macro set than the source's.
 class MacroBlocks {
 public:
@@ -242,6 +246,7 @@ private:
   const ir::Origin* incremental_ = nullptr;          // of the G91 that is in force in the source
   const ir::Origin* opaque_ = nullptr;               // of the copied block that is looked at
   bool overwritten_ = false;                         // by a G90 of ours
+  bool calls_ = false;                               // as callsMacros() says
   bool waits_ = false;                               // the next line reads where the axes are
   bool saysSearch_ = false;                          // that it goes on beyond the source's
   std::map<std::string, int> alarms_;                // numbers of alarms of ours, by their texts
