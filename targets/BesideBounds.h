@@ -29,7 +29,7 @@ void runBesideBounds(const Plan& plan, const verify::Case& drawn, CaseResult& re
     for (const double far : plan.bounds->beside(*met, field))
       if (std::abs(far - turn) > 1.5 * step) values.push_back(far);
     for (const double value : values) {
-      // What a list does not offer is turned away as such, and with which words is another question.
+      // What a list does not offer is rejected as such, and with which words is another question.
       if (!field.choices.empty() &&
           std::find(field.choices.begin(), field.choices.end(), value) == field.choices.end())
         continue;

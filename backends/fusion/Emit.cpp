@@ -62,10 +62,12 @@ void nameFields(State& state) {
 
 bool callsMacros(const ir::Cycle& cycle) {
   return std::any_of(cycle.body.begin(), cycle.body.end(), [](const ir::CycleStatement& statement) {
-    const auto* move = std::get_if<ir::Move>(&statement.node);
-    return std::holds_alternative<ir::Measure>(statement.node) ||
-           std::holds_alternative<ir::CallCycle>(statement.node) ||
-           (move != nullptr && move->motion == ir::Motion::Protected);
+    return match(
+        statement, [](const ir::OneOf<ir::Measure, ir::CallCycle> auto&) { return true; },
+        [](const ir::Move& move) { return move.motion == ir::Motion::Protected; },
+        [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Assign, ir::Store, ir::ProbePower,
+                           ir::Comment, ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell,
+                           ir::Stop, ir::Alarm, ir::OpaqueBlock> auto&) { return false; });
   });
 }
 

@@ -423,7 +423,7 @@ bool MacroBlocks::missesNominal(const ir::Measure& measure, const ir::Origin& or
         measure.target ? place(*measure.target, axis, ir::Frame::Work, origin) : at_[ir::indexOf(axis)].value;
     if (target == nullptr) return false;
     const ir::ExpressionPtr between = difference(target, nominal);
-    if (ir::constantValue(between) != nullptr) return false; // decided when converting
+    if (const double* fixed = ir::constantValue(between)) return std::abs(*fixed) > kSame;
     const ir::Scalar away = ir::evaluate(*between, known);
     return away.known() && std::abs(away.value) > kSame;
   });
