@@ -159,7 +159,10 @@ FoundResult MacroBlocks::found(ir::ResultName name) const {
 }
 
 bool MacroBlocks::comparesAlike(const ir::CycleStatement& statement) {
-  if (!std::holds_alternative<ir::Branch>(statement.node) || state_.options.source == nullptr) return false;
+  // What is stored only where a comparison holds stands in the text of that one.
+  const bool stores = std::holds_alternative<ir::Store>(statement.node) && !moved_.contains(&statement);
+  if (!(stores || std::holds_alternative<ir::Branch>(statement.node)) || state_.options.source == nullptr)
+    return false;
   const Lasts& before = lasts()[static_cast<std::size_t>(&statement - state_.cycle.body.data())];
   bool alike = !before.empty();
   ir::eachNode(statement, [&](const ir::Expression& node) {
