@@ -1,6 +1,8 @@
 #include "targets/SelectedSystems.h"
 
 #include <cmath>
+#include <map>
+#include <optional>
 
 namespace dotek::targets {
 
@@ -28,10 +30,39 @@ bool movesElsewhere(const stdlib::CodeInfo& code) {
   }
 }
 
+// What the text gives to variables, read from above: `#551=30` before `G43 H#551`.
+class Known {
+public:
+  void read(const ir::ProgramStatement& statement) {
+    const auto* store = std::get_if<ir::Store>(&statement.node);
+    const double* number = store == nullptr ? nullptr : ir::constantValue(store->number);
+    if (store != nullptr && number == nullptr) values_.clear();
+    if (number == nullptr) return;
+    const std::optional<double> value = of(store->value);
+    if (value)
+      values_[*number] = *value;
+    else
+      values_.erase(*number);
+  }
+  std::optional<double> of(const ir::ExpressionPtr& value) const {
+    if (value == nullptr) return std::nullopt;
+    if (const double* constant = ir::constantValue(value)) return *constant;
+    const auto* variable = std::get_if<ir::MachineVariable>(&value->node);
+    const double* number = variable == nullptr ? nullptr : ir::constantValue(variable->number);
+    const auto found = number == nullptr ? values_.end() : values_.find(*number);
+    return found == values_.end() ? std::nullopt : std::optional(found->second);
+  }
+
+private:
+  std::map<double, double> values_; // by number
+};
+
 // The additional work system that a posted program selects before it moves in one, G54.1 Pn. 0: none.
 std::uint32_t extendedIn(const ir::Program& program, const stdlib::Control& control,
                          const std::set<std::uint32_t>& switches) {
+  Known known;
   for (const ir::ProgramStatement& statement : program.body) {
+    known.read(statement);
     if (const auto* call = std::get_if<ir::Call>(&statement.node);
         call != nullptr && mayMove(*call, switches))
       return 0;
@@ -41,8 +72,8 @@ std::uint32_t extendedIn(const ir::Program& program, const stdlib::Control& cont
     std::uint32_t number = 0;
     for (const ir::Word& word : block->words) {
       axes = axes || (word.address >= 'X' && word.address <= 'Z');
-      const double* value = ir::constantValue(word.value);
-      if (value == nullptr || *value < 0 || *value > 9999) continue;
+      const std::optional<double> value = known.of(word.value);
+      if (!value || *value < 0 || *value > 9999) continue;
       const auto tenths = static_cast<std::uint32_t>(std::lround(*value * 10));
       const stdlib::CodeInfo* info = word.address == 'G' ? control.find('G', tenths) : nullptr;
       elsewhere = elsewhere || (info != nullptr && movesElsewhere(*info));
@@ -62,7 +93,9 @@ Selected selectedIn(const ir::Program& program, const stdlib::Control& control,
   using stdlib::Function;
   Selected out;
   bool moved = false;
+  Known known;
   for (const ir::ProgramStatement& statement : program.body) {
+    known.read(statement);
     const auto* call = std::get_if<ir::Call>(&statement.node);
     moved = moved || (call != nullptr && mayMove(*call, switches));
     const auto* block = std::get_if<ir::NcBlock>(&statement.node);
@@ -80,8 +113,8 @@ Selected selectedIn(const ir::Program& program, const stdlib::Control& control,
       if (function == Function::WorkSystem && !moved) out.system = tenths / 10;
     }
     for (const ir::Word& word : block->words) {
-      const double* number = word.address == 'H' ? ir::constantValue(word.value) : nullptr;
-      if (length && !out.toolOffset && number != nullptr && *number >= 1 && *number <= 9999)
+      const std::optional<double> number = word.address == 'H' ? known.of(word.value) : std::nullopt;
+      if (length && !out.toolOffset && number && *number >= 1 && *number <= 9999)
         out.toolOffset = static_cast<std::uint32_t>(std::lround(*number));
     }
     moved = moved || (axes && !elsewhere);
