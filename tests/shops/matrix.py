@@ -24,7 +24,8 @@ data = ["--data", "tests/shops/data"]
 # shop: routine of its post. The control is the one that its form names.
 routines = {"inspection": "probeOps", "easyprobe": "messen", "direct": "touch", "toolchange": "measure", "flags": "pomiar", "origins": "palper", "repeats": "messen",
             "results": "probing", "included": "antasten", "bounded": "probes", "series": "sonda", "chained": "palpage", "touches": "tasta", "zones": "taster", "classes": "matcykel", "retries": "probeIt", "loops": "sondaRen",
-            "irunza": "palpador", "nordlund": "taster", "szabo": "meres", "vandoorn": "meten"}
+            "irunza": "palpador", "nordlund": "taster", "szabo": "meres", "vandoorn": "meten",
+            "moreira": "medir", "yildiz": "olcum", "koskinen": "mittaus", "kobayashi": "sokutei"}
 
 # What the thesis prints as another field than the folder declares, and an IF that it leaves open.
 corpus_fields = {"MERENI.OSA.X": ["--field", "X=a"], "MERENI.OSA.Y": ["--field", "Y=b"], "MERENI.OSA.Z": ["--field", "Z=d"]}
