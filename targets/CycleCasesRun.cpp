@@ -341,6 +341,25 @@ bool CaseRunner::movesItself(const Values& values) const {
   return selects_ != true && first != writes.end() && first->first.starts_with(system);
 }
 
+namespace {
+
+// A loop by WHILE, or by a jump back.
+bool loops(const ir::Program& program) {
+  std::set<ir::LabelId> passed;
+  for (const ir::ProgramStatement& statement : program.body) {
+    if (const auto* label = std::get_if<ir::Label>(&statement.node)) passed.insert(label->label);
+    if (std::holds_alternative<ir::Loop>(statement.node)) return true;
+    if (const auto* jump = std::get_if<ir::Jump>(&statement.node); jump && passed.contains(jump->target))
+      return true;
+    if (const auto* branch = std::get_if<ir::Branch>(&statement.node);
+        branch && passed.contains(branch->target))
+      return true;
+  }
+  return false;
+}
+
+} // namespace
+
 // What the path touches and what the source measures, whatever the translation is: nominal contacts alone. A
 // rehearsal finds each surface at the end of its travel; a branch that measures until it has found one, or
 // goes where it has found some, agrees with its path in the run on the part. `source`: that run; nullptr:
@@ -349,8 +368,9 @@ void CaseRunner::comparePath(CaseResult& result, const Values& values, const ver
   if (!values.path || !values.rehearsal || movesItself(values)) return;
   constexpr double kComputed = 0.002; // mm, of the mean of two places that were read
   const double tolerance = std::max(pathTolerance(values), kComputed);
+  const bool rounds = values.posted && loops(values.posted->file.programs.front());
   const auto contacts = [&](const verify::Record& program) {
-    std::vector<verify::Difference> out = verify::compare(*values.path, {}, program, tolerance);
+    std::vector<verify::Difference> out = verify::compare(*values.path, {}, program, tolerance, rounds);
     std::erase_if(out, [](const verify::Difference& one) { return one.aspect != verify::Aspect::Nominal; });
     return out;
   };

@@ -79,9 +79,10 @@ std::string endText(const Record& record);
 bool runsAlike(const Record& one, const Record& other, const CompareRules& rules);
 
 // The drawn path beside the program: points without their kinds, nominal contacts, end. `offset`: from the
-// system of the path to the machine.
+// system of the path to the machine. `loops`: the program measures in a loop, which may end before a path
+// that draws each round.
 std::vector<Difference> compare(const DrawnPath& path, const sim::Point3& offset, const Record& program,
-                                double tolerance);
+                                double tolerance, bool loops = false);
 
 // It ends, and each of its measures has met a surface.
 bool findsAll(const Record& record);

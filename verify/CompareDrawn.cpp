@@ -136,7 +136,7 @@ void trimToolChange(const Point3& first, const Point3& last, double tolerance, s
 } // namespace
 
 std::vector<Difference> compare(const DrawnPath& path, const Point3& offset, const Record& program,
-                                double tolerance) {
+                                double tolerance, bool loops) {
   std::vector<Difference> out;
   const auto add = [&](Aspect aspect, std::string text, SourceRange source, SourceRange target) {
     const bool there =
@@ -205,6 +205,16 @@ std::vector<Difference> compare(const DrawnPath& path, const Point3& offset, con
     if (!out.empty()) break;
     if (nominal.size() > 1) addMovesOfCall(path, offset, measure, firstTouch, next, tolerance, ofCalls);
   }
+  // Rounds that are drawn and were not needed touch what was touched.
+  const auto isAgain = [&](const DrawnTouch& one) {
+    return std::any_of(path.touches.begin(), path.touches.begin() + static_cast<std::ptrdiff_t>(next),
+                       [&](const DrawnTouch& other) {
+                         return near(one.touch.direction, other.touch.direction, 1e-9) &&
+                                near(one.touch.point, other.touch.point, tolerance);
+                       });
+  };
+  while (loops && out.empty() && next < path.touches.size() && isAgain(path.touches[next]))
+    ++next;
   if (out.empty() && !unstated && program.ending == Ending::Finished && next < path.touches.size())
     add(Aspect::Nominal,
         fmt::format("the path touches a surface at {} against no measure",
