@@ -63,10 +63,12 @@ ODD_CHARACTER : [\u00C2-\u00DF] Tail | [\u00E0-\u00EF] Tail Tail | [\u00F0-\u00F
 // anything else
 ANY : . ;
 
-// Letters outside A to Z are unverified: two bytes of UTF-8, or one of CP1250.
+// Letters outside A to Z are unverified: several bytes of UTF-8, or one of CP1250.
 fragment Letter
   : [A-Za-z_]
   | [\u00C3-\u00C5] Tail
+  | [\u00E1\u00E3-\u00EF] Tail Tail
+  | [\u00F0-\u00F4] Tail Tail Tail
   | [\u008A\u008C-\u008F\u009A\u009C-\u009F\u00A3\u00A5\u00AA\u00AF\u00B3\u00B9\u00BA\u00BC\u00BE-\u00C1\u00C3-\u00D6\u00D8-\u00E1\u00E3-\u00F6\u00F8-\u00FE]
   ;
 fragment Tail : [\u0080-\u00BF] ;

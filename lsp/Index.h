@@ -59,6 +59,14 @@ struct Hint {
   std::string label;
 };
 
+// An argument of a call whose program is in no set of macros.
+struct OwnArgument {
+  SourceRange range;
+  std::uint32_t program = 0;
+  char letter = 0;
+  std::uint32_t local = 0; // #n that it sets
+};
+
 struct Index {
   std::optional<project::InputKind> kind;
   bool post = false; // of Fusion, which is of no kind
@@ -69,6 +77,7 @@ struct Index {
   std::vector<Symbol> symbols;
   std::vector<Fact> facts;
   std::vector<Hint> hints;
+  std::vector<OwnArgument> ownArguments;
   // Files that a name stands for: of a cycle or a macro that is called, by the key of the name.
   std::map<std::string, std::string> files;
   std::vector<std::string> needed; // parameters that a run gets no value for

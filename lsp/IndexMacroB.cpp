@@ -133,7 +133,12 @@ private:
     const stdlib::MacroSet* set = nullptr;
     for (const stdlib::MacroSet& one : session_.macroSets())
       if (set == nullptr && one.calls(called)) set = &one;
-    if (set == nullptr) return;
+    if (set == nullptr) {
+      for (const macrob::CallArgument& argument : call.arguments)
+        index_.ownArguments.push_back(
+            {argument.word->range, called, argument.word->address, stdlib::localOf(argument.word->address)});
+      return;
+    }
     index_.facts.push_back({call.program->range, programFact(*set, called)});
     std::string letters;
     for (const macrob::CallArgument& argument : call.arguments)

@@ -73,7 +73,7 @@ Fact factElsewhere(Workspace& workspace, const Place& place, bool alone) {
   const std::vector<Use> uses = usesOf(workspace, *place.document, *one);
   for (const Use& use : uses) {
     if (use.occurrence->role == Role::Read) continue;
-    const std::string file = folderName(use.index->text().name());
+    const std::string file = std::filesystem::path(use.index->text().name()).filename().string();
     if (one->key.starts_with("O ")) {
       for (const Symbol& symbol : use.index->symbols)
         if (symbol.nameRange == use.occurrence->range)
@@ -118,6 +118,10 @@ Json hover(Workspace& workspace, const Json& params) {
   Fact elsewhere;
   if (best == nullptr || (named != nullptr && named->key.starts_with("field ")))
     elsewhere = factElsewhere(workspace, place, best == nullptr);
+  if (best == nullptr && elsewhere.text.empty())
+    for (const OwnArgument& one : place.index->ownArguments)
+      if (place.offset >= one.range.begin && place.offset <= one.range.end)
+        elsewhere = {one.range, ownArgumentText(workspace, *place.document, one)};
   if (!elsewhere.text.empty()) best = &elsewhere;
   if (best != nullptr) {
     text = best->text + (text.empty() ? "" : "\n\n---\n\n" + text);
@@ -196,7 +200,8 @@ Json documentSymbols(Workspace& workspace, const Json& params) {
 }
 
 Json inlayHints(Workspace& workspace, const Json& params) {
-  const Index& index = workspace.index(documentOf(workspace, params));
+  const Document& document = documentOf(workspace, params);
+  const Index& index = workspace.index(document);
   Json out = Json::array();
   if (index.file == kNoFile) return out;
   std::uint32_t begin = 0, end = UINT32_MAX;
@@ -204,12 +209,17 @@ Json inlayHints(Workspace& workspace, const Json& params) {
     begin = offsetOf(index.text(), range->value("start", Json()), workspace.units).value_or(0);
     end = offsetOf(index.text(), range->value("end", Json()), workspace.units).value_or(UINT32_MAX);
   }
+  const auto add = [&](std::uint32_t offset, const std::string& label) {
+    if (offset < begin || offset > end || label.empty()) return;
+    out.push_back({{"position", positionOf(index.text(), offset, workspace.units)},
+                   {"label", label},
+                   {"kind", 2},
+                   {"paddingRight", false}});
+  };
   for (const Hint& hint : index.hints)
-    if (hint.offset >= begin && hint.offset <= end)
-      out.push_back({{"position", positionOf(index.text(), hint.offset, workspace.units)},
-                     {"label", hint.label},
-                     {"kind", 2},
-                     {"paddingRight", false}});
+    add(hint.offset, hint.label);
+  for (const OwnArgument& one : index.ownArguments)
+    add(one.range.begin, ownArgumentHint(workspace, document, one));
   return out;
 }
 

@@ -28,4 +28,10 @@ struct Use {
 
 std::vector<Use> usesOf(Workspace& workspace, const Document& document, const Occurrence& one);
 
+// What the comments below the number of the called program say of the argument, as `(D #7 DIAMETER, MM)` has
+// it; which local it is where they say nothing. As Markdown.
+std::string ownArgumentText(Workspace& workspace, const Document& document, const OwnArgument& argument);
+// Its name from there, `diameter:`; "": none.
+std::string ownArgumentHint(Workspace& workspace, const Document& document, const OwnArgument& argument);
+
 } // namespace dotek::lsp

@@ -63,7 +63,8 @@ void Checker::header() {
     std::string stem = stemOf(sources_.file(file_.file).name());
     std::string wanted = header->name.text;
     std::replace(wanted.begin(), wanted.end(), '_', '-');
-    if (!stem.empty() && stem != wanted)
+    const bool named = !file_.hasErrorNodes || sources_.text(header->name.range) == header->name.text;
+    if (named && !stem.empty() && stem != wanted)
       diagnostics_.report<diag::CycleFileName>(header->name.range, header->name.text, wanted);
   }
   if (first == nullptr) {

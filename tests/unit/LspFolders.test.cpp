@@ -262,3 +262,21 @@ TEST_CASE("lsp: a text of a few letters is what the editor says, or its name") {
   Client client;
   CHECK(codes(client.open(path, text, "plaintext")).empty());
 }
+
+TEST_CASE("lsp: arguments of a program of the shop are what its comments say") {
+  const TestFolder folder("lsp-own-macro");
+  folder.write("O0002.nc",
+               "O2(BORE)\n(A #1  DEPTH     MM   GIVE)\n(  D  NOMINAL DIAMETER, MM)\n#100=#1+#7\nM99\n");
+  const std::string text = "O1\nG65 P2 A1. D2. E3.\nM30\n";
+  const std::string path = folder.write("O0001.nc", text);
+  Client client;
+  client.open(path, text);
+  CHECK(hover(client, path, 1, 8).find("DEPTH") != std::string::npos);
+  CHECK(hover(client, path, 1, 12).find("NOMINAL DIAMETER, MM") != std::string::npos);
+  CHECK(hover(client, path, 1, 16).find("`#8`") != std::string::npos);
+  std::vector<std::string> labels;
+  for (const Json& hint : client.result("textDocument/inlayHint", all(path)))
+    labels.push_back(hint["label"]);
+  CHECK(labels == std::vector<std::string>{"depth:", "nominal diameter:"});
+  CHECK(hover(client, path, 1, 5).find("O0002.nc") != std::string::npos);
+}
