@@ -3,11 +3,13 @@
 #include "backends/fanuc/Example.h"
 #include "backends/fanuc/State.h"
 #include "backends/fanuc/Uses.h"
+#include "ir/Walk.h"
 #include "stdlib/HostInputs.h"
 #include "support/Decimal.h"
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <set>
 
 namespace dotek::backends::fanuc {
 
@@ -220,6 +222,42 @@ private:
     if (!text.empty()) say(text);
   }
 
+  // The body calls macros of the set, beside switching the probe.
+  bool callsMacros() const {
+    return std::any_of(state_.cycle.body.begin(), state_.cycle.body.end(), [](const ir::CycleStatement& one) {
+      return match(
+          one, [](const ir::OneOf<ir::Measure, ir::CallCycle> auto&) { return true; },
+          [](const ir::Move& move) { return move.motion == ir::Motion::Protected; },
+          [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Assign, ir::Store, ir::ProbePower,
+                             ir::Comment, ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell,
+                             ir::Stop, ir::Alarm, ir::OpaqueBlock> auto&) { return false; });
+    });
+  }
+
+  // "#530, #600": common variables of the shop that the body reads and never sets; those below are the
+  // macros'.
+  std::string readFromOutside() const {
+    constexpr double kFirst = 500, kLast = 999;
+    if (!state_.options.programs.empty()) return ""; // results of called programs are among them
+    std::set<double> read, stored;
+    for (const ir::CycleStatement& one : state_.cycle.body) {
+      if (const auto* store = std::get_if<ir::Store>(&one.node)) {
+        const double* number = ir::constantValue(store->number);
+        if (number == nullptr) return ""; // it may be any
+        stored.insert(*number);
+      }
+      ir::eachNode(one, [&](const ir::Expression& node) {
+        const auto* variable = std::get_if<ir::MachineVariable>(&node.node);
+        const double* number = variable == nullptr ? nullptr : ir::constantValue(variable->number);
+        if (number != nullptr && *number >= kFirst && *number <= kLast) read.insert(*number);
+      });
+    }
+    std::string out;
+    for (const double number : read)
+      if (!stored.contains(number)) out += fmt::format("{}#{:.0f}", out.empty() ? "" : ", ", number);
+    return out;
+  }
+
   void requirements() {
     const Guards& guards = state_.guards;
     std::string checked, unchecked, noted;
@@ -241,7 +279,10 @@ private:
     put(Guard::Unchecked, "CALIBRATED PROBE IN THE SPINDLE");
     if (!checked.empty()) say("THE CALLER PROVIDES, ELSE AN ALARM: " + checked);
     say("THE CALLER PROVIDES, NOT CHECKED: " + unchecked);
-    if (!state_.macros.needs.empty()) say("SET BEFORE THE FIRST CALL: " + state_.macros.needs);
+    if (!state_.macros.needs.empty() && callsMacros())
+      say("SET BEFORE THE FIRST CALL: " + state_.macros.needs);
+    if (const std::string read = readFromOutside(); !read.empty())
+      say("READ HERE AND SET ELSEWHERE: " + read);
     std::string starts;
     for (const ir::Axis axis : ir::kAxes) {
       const auto id = state_.findHost(std::string("start_") + static_cast<char>('x' + ir::indexOf(axis)));
