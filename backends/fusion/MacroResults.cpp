@@ -159,7 +159,7 @@ FoundResult MacroBlocks::found(ir::ResultName name) const {
 }
 
 bool MacroBlocks::comparesAlike(const ir::CycleStatement& statement) {
-  // What is stored only where a comparison holds stands in the text of that one.
+  // What is stored only where a comparison holds is in the text of that one.
   const bool stores = std::holds_alternative<ir::Store>(statement.node) && !moved_.contains(&statement);
   if (!(stores || std::holds_alternative<ir::Branch>(statement.node)) || state_.options.source == nullptr)
     return false;

@@ -24,7 +24,7 @@ TEST_CASE("baseline: what is known is passed over, what is new fails, what is go
   const ShellResult known = folder.run("dotek lint O7411.nc --baseline known.json");
   CHECK(known.status == 0);
   CHECK(known.out.empty());
-  CHECK(known.err.find("1 of the baseline passed over") != std::string::npos);
+  CHECK(known.err.find("1 of the baseline left out") != std::string::npos);
 
   // Lines before it change nothing; the same mistake once more is new.
   folder.write("O7411.nc", "O7411\n(NEW LINE)\nG0Z5.\nGOTO40\nGOTO50\nN30M99\n");
@@ -38,7 +38,7 @@ TEST_CASE("baseline: what is known is passed over, what is new fails, what is go
   const ShellResult gone =
       folder.run("dotek lint O7411.nc --select goto-target-missing --baseline known.json");
   CHECK(gone.status == 0);
-  CHECK(gone.err.find("1 of it gone") != std::string::npos);
+  CHECK(gone.err.find("1 of it no longer found") != std::string::npos);
 }
 
 TEST_CASE("baseline: a file is the same however it is named, and wherever the command runs") {
@@ -53,7 +53,7 @@ TEST_CASE("baseline: a file is the same however it is named, and wherever the co
                               "cd lists; dotek lint ../shop/O7411.nc --baseline known.json"}) {
     const ShellResult result = folder.run(command);
     CHECK_MESSAGE(result.status == 0, command << result.out << result.err);
-    CHECK(result.err.find("1 of the baseline passed over") != std::string::npos);
+    CHECK(result.err.find("1 of the baseline left out") != std::string::npos);
   }
   // A list of other files says so, and does not ask to be written anew.
   folder.run("cp -r shop other");
@@ -76,12 +76,14 @@ TEST_CASE(
         "dotek lint . --baseline known.json --select hash-missing"}) {
     const ShellResult result = folder.run(command);
     CHECK_MESSAGE(result.status == 0, command << result.out << result.err);
-    CHECK_MESSAGE(result.err.find("gone") == std::string::npos, command << result.err);
+    CHECK_MESSAGE(result.err.find("no longer found") == std::string::npos, command << result.err);
   }
   // A file that is gone takes its findings with it, where the run looks.
   folder.run("rm mill/O7411.nc");
-  CHECK(folder.run("dotek lint mill --baseline known.json").err.find("1 of it gone") != std::string::npos);
-  CHECK(folder.run("dotek lint lathe --baseline known.json").err.find("gone") == std::string::npos);
+  CHECK(folder.run("dotek lint mill --baseline known.json").err.find("1 of it no longer found") !=
+        std::string::npos);
+  CHECK(folder.run("dotek lint lathe --baseline known.json").err.find("no longer found") ==
+        std::string::npos);
   const ShellResult part = folder.run("dotek lint mill --write-baseline known.json");
   CHECK(part.err.find("1 of the baseline stays") != std::string::npos);
   CHECK(Json::parse(folder.read("known.json"))["findings"].size() == 2);
@@ -100,13 +102,13 @@ TEST_CASE("baseline: a run on a part of a folder keeps what only a run on the wh
   folder.write("dotek.toml", "schema = 1\n[[lint.path]]\npath = \"lahte/**\"\nignore = [\"indentation\"]\n");
   folder.run("dotek lint . --write-baseline known.json");
   REQUIRE(folder.read("known.json").find("path-unused") != std::string::npos);
-  CHECK(folder.run("dotek lint mill --baseline known.json").err.find("gone") == std::string::npos);
+  CHECK(folder.run("dotek lint mill --baseline known.json").err.find("no longer found") == std::string::npos);
   folder.run("dotek lint mill --write-baseline known.json");
   const ShellResult all = folder.run("dotek lint . --baseline known.json");
   CHECK_MESSAGE(all.status == 0, all.out);
   // What it finds no more is gone all the same.
   folder.write("dotek.toml", "schema = 1\n");
-  CHECK(folder.run("dotek lint . --baseline known.json").err.find("gone") != std::string::npos);
+  CHECK(folder.run("dotek lint . --baseline known.json").err.find("no longer found") != std::string::npos);
 }
 
 TEST_CASE("baseline: a place more of an accepted finding is new") {
@@ -131,8 +133,8 @@ TEST_CASE("baseline: a place more of an accepted finding is new") {
   folder.run("dotek lint O1.nc --select goto-target-missing --write-baseline known.json");
   for (const std::string& lines : {five + six, "N1 G0 Z5.\n" + five + "(BETWEEN)\n" + six, five, six})
     CHECK_MESSAGE(lint(lines).status == 0, lines);
-  CHECK(lint(five + six).err.find("gone") == std::string::npos);
-  CHECK(lint("").err.find("1 of it gone") != std::string::npos);
+  CHECK(lint(five + six).err.find("no longer found") == std::string::npos);
+  CHECK(lint("").err.find("1 of it no longer found") != std::string::npos);
   CHECK(lint(five + "IF[#7 EQ #0]GOTO 50\n").status == 1);
   // Lists without places stay what they were.
   folder.run("sed -i '/places/,/]/d; s/\\(\"fingerprint\".*\\),$/\\1/' known.json");

@@ -291,16 +291,16 @@ TEST_CASE("reading: what is no input is one error that names the kinds, in every
       const std::string all = run.out + run.err;
       CHECK_MESSAGE(run.status == 2, command[0]);
       if (command[0] == "post") continue; // the folder is what is missing
-      CHECK_MESSAGE(holds(all, "`" + file + "` is none of the files that Dotek reads"), command[0] << all);
+      CHECK_MESSAGE(holds(all, "`" + file + "` is no file of a kind that Dotek reads"), command[0] << all);
       CHECK_MESSAGE(holds(all, "NC programs (nc, listing)"), command[0]);
       CHECK_MESSAGE(all.find("error:") == all.rfind("error:"), command[0] << all);
     }
   }
   const CommandResult run = dotekIn(folder, {"sim", "a.mac"});
   CHECK(run.status == 2);
-  CHECK(run.err ==
-        "dotek: error: `a.mac` is a GibbsCAM macro, and an NC program is expected here; `--from nc` "
-        "reads it as one [wrong-kind]\n");
+  CHECK(run.err == "dotek: error: `a.mac` is a GibbsCAM macro, and an NC program is expected here; if it is "
+                   "one after all, `--from nc` "
+                   "says so [wrong-kind]\n");
 }
 
 TEST_CASE("reading: a post where a program is expected is named with the commands that take it") {
