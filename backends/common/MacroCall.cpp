@@ -378,4 +378,15 @@ bool movesProbe(const ir::CycleStatement& statement) {
                          ir::OpaqueBlock> auto&) { return false; });
 }
 
+bool callsMacros(const ir::Cycle& cycle) {
+  return std::any_of(cycle.body.begin(), cycle.body.end(), [](const ir::CycleStatement& statement) {
+    return match(
+        statement, [](const ir::OneOf<ir::Measure, ir::CallCycle> auto&) { return true; },
+        [](const ir::Move& move) { return move.motion == ir::Motion::Protected; },
+        [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Assign, ir::Store, ir::ProbePower,
+                           ir::Comment, ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell,
+                           ir::Stop, ir::Alarm, ir::OpaqueBlock> auto&) { return false; });
+  });
+}
+
 } // namespace dotek::backends

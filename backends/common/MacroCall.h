@@ -2,6 +2,7 @@
 // its arguments is, and which variable holds a result afterwards.
 #pragma once
 
+#include "ir/Cycle.h"
 #include "ir/Statement.h"
 #include "stdlib/MacroCycle.h"
 #include "stdlib/MacroSet.h"
@@ -137,5 +138,9 @@ FoundResult resultAfter(const stdlib::MacroSignature& signature, const ir::Cycle
 
 // A move, a measurement, or a call that is one of the two.
 bool movesProbe(const ir::CycleStatement& statement);
+
+// The cycle moves or measures by macros of a set, beside switching the probe: what another set has in their
+// place needs position and modes.
+bool callsMacros(const ir::Cycle& cycle);
 
 } // namespace dotek::backends

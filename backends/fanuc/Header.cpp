@@ -1,4 +1,5 @@
 // The comments before the first block: what a machinist needs to call the program.
+#include "backends/common/MacroCall.h"
 #include "backends/common/PlainText.h"
 #include "backends/fanuc/Example.h"
 #include "backends/fanuc/State.h"
@@ -222,18 +223,6 @@ private:
     if (!text.empty()) say(text);
   }
 
-  // The body calls macros of the set, beside switching the probe.
-  bool callsMacros() const {
-    return std::any_of(state_.cycle.body.begin(), state_.cycle.body.end(), [](const ir::CycleStatement& one) {
-      return match(
-          one, [](const ir::OneOf<ir::Measure, ir::CallCycle> auto&) { return true; },
-          [](const ir::Move& move) { return move.motion == ir::Motion::Protected; },
-          [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Assign, ir::Store, ir::ProbePower,
-                             ir::Comment, ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell,
-                             ir::Stop, ir::Alarm, ir::OpaqueBlock> auto&) { return false; });
-    });
-  }
-
   // "#530, #600": common variables of the shop that the body reads and never sets; those below are the
   // macros'.
   std::string readFromOutside() const {
@@ -279,7 +268,7 @@ private:
     put(Guard::Unchecked, "CALIBRATED PROBE IN THE SPINDLE");
     if (!checked.empty()) say("THE CALLER PROVIDES, ELSE AN ALARM: " + checked);
     say("THE CALLER PROVIDES, NOT CHECKED: " + unchecked);
-    if (!state_.macros.needs.empty() && callsMacros())
+    if (!state_.macros.needs.empty() && callsMacros(state_.cycle))
       say("SET BEFORE THE FIRST CALL: " + state_.macros.needs);
     if (const std::string read = readFromOutside(); !read.empty())
       say("READ HERE AND SET ELSEWHERE: " + read);

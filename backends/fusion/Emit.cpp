@@ -60,17 +60,6 @@ void nameFields(State& state) {
 
 } // namespace
 
-bool callsMacros(const ir::Cycle& cycle) {
-  return std::any_of(cycle.body.begin(), cycle.body.end(), [](const ir::CycleStatement& statement) {
-    return match(
-        statement, [](const ir::OneOf<ir::Measure, ir::CallCycle> auto&) { return true; },
-        [](const ir::Move& move) { return move.motion == ir::Motion::Protected; },
-        [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Assign, ir::Store, ir::ProbePower,
-                           ir::Comment, ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell,
-                           ir::Stop, ir::Alarm, ir::OpaqueBlock> auto&) { return false; });
-  });
-}
-
 State::State(const ir::Cycle& given, const EmitOptions& emitOptions, Diagnostics& report)
     : cycle(given), options(emitOptions), diagnostics(report), prefix(prefixOf(given.name)) {}
 

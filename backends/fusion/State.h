@@ -130,10 +130,6 @@ private:
 
 // ---- MacroBlocks.cpp ----
 
-// The branch moves or measures by macros, beside switching the probe: what stands for them in another set has
-// to know position and modes.
-bool callsMacros(const ir::Cycle& cycle);
-
 // Blocks of another macro set than the source's.
 class MacroBlocks {
 public:
