@@ -120,6 +120,16 @@ Json codeActions(Workspace& workspace, const Json& params) {
     first = range->value("/start/line"_json_pointer, 0u);
     last = range->value("/end/line"_json_pointer, UINT32_MAX);
   }
+  // What is offered for two findings of a line alike is offered once, for both.
+  const auto offer = [&](Json action) {
+    const auto same = std::find_if(out.begin(), out.end(), [&](const Json& other) {
+      return other["title"] == action["title"] && other.value("edit", Json()) == action.value("edit", Json());
+    });
+    if (same == out.end())
+      out.push_back(std::move(action));
+    else
+      (*same)["diagnostics"].push_back(action["diagnostics"][0]);
+  };
   std::map<std::string, Json> safe; // all that --fix would make
   for (const Found& one : workspace.found(document.path)) {
     const std::uint32_t end = one.diagnostic["range"]["end"]["line"];
@@ -136,12 +146,11 @@ Json codeActions(Workspace& workspace, const Json& params) {
            {"diagnostics", {one.diagnostic}},
            {"edit", editOf(workspace, one.edits)}});
     if (lint::findRule(one.code) != nullptr) // what keeps a text from being read is repaired, not ignored
-      out.push_back(suppressionOf(workspace, document, index, one));
-    out.push_back(
-        {{"title", "Explain " + one.code},
-         {"kind", "quickfix"},
-         {"diagnostics", {one.diagnostic}},
-         {"command", {{"title", "Explain"}, {"command", "dotek.explain"}, {"arguments", {one.code}}}}});
+      offer(suppressionOf(workspace, document, index, one));
+    offer({{"title", "Explain " + one.code},
+           {"kind", "quickfix"},
+           {"diagnostics", Json::array({one.diagnostic})},
+           {"command", {{"title", "Explain"}, {"command", "dotek.explain"}, {"arguments", {one.code}}}}});
   }
   if (Json action = renumbering(workspace, document, index, params); !action.is_null())
     out.push_back(std::move(action));

@@ -280,3 +280,18 @@ TEST_CASE("lsp: arguments of a program of the shop are what its comments say") {
   CHECK(labels == std::vector<std::string>{"depth:", "nominal diameter:"});
   CHECK(hover(client, path, 1, 5).find("O0002.nc") != std::string::npos);
 }
+
+TEST_CASE("lsp: what is offered for two findings of a line alike is offered once") {
+  const TestFolder folder("lsp-alike");
+  const std::string text = "N10 G83\nN30 M30\n";
+  const std::string path = folder.write("a.suf", text);
+  Client client;
+  CHECK(codes(client.open(path, text)).size() > 1);
+  std::vector<std::string> titles;
+  for (const Json& action : client.result("textDocument/codeAction", all(path))) {
+    titles.push_back(action["title"]);
+    if (titles.back() == "Ignore suf-address-missing in this line") CHECK(action["diagnostics"].size() == 2);
+  }
+  CHECK(std::count(titles.begin(), titles.end(), "Ignore suf-address-missing in this line") == 1);
+  CHECK(std::count(titles.begin(), titles.end(), "Explain suf-address-missing") == 1);
+}
