@@ -7,12 +7,15 @@ function(dotek_embed_folder folder output header namespace type function)
   list(TRANSFORM globs PREPEND ${PROJECT_SOURCE_DIR}/${folder}/)
   file(GLOB_RECURSE files CONFIGURE_DEPENDS ${globs})
   string(REPLACE ";" "|" patterns "${ARGN}")
+  # A file that goes away is no newer input: the list of them is one.
+  string(REPLACE ";" "\n" names "${files}")
+  file(CONFIGURE OUTPUT ${output}.list CONTENT "${names}\n" @ONLY)
   add_custom_command(
     OUTPUT ${output}
     COMMAND ${CMAKE_COMMAND} -DROOT=${PROJECT_SOURCE_DIR}/${folder} -DOUTPUT=${output} -DPATTERNS=${patterns}
             -DHEADER=${header} -DNAMESPACE=${namespace} -DTYPE=${type} -DFUNCTION=${function}
             -P ${PROJECT_SOURCE_DIR}/cmake/EmbedScript.cmake
-    DEPENDS ${files} ${PROJECT_SOURCE_DIR}/cmake/EmbedScript.cmake
+    DEPENDS ${files} ${output}.list ${PROJECT_SOURCE_DIR}/cmake/EmbedScript.cmake
     VERBATIM COMMENT "Embedding ${folder}")
 endfunction()
 
