@@ -68,8 +68,6 @@ std::string cycleName(std::string stem) {
   return stem;
 }
 
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-
 // The layout with the line ends that the file has in its first line, and its byte order mark.
 std::string endedAs(const std::string& path, const SourceFile& before, const std::string& laidOut,
                     const Limits& limits) {

@@ -13,10 +13,14 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 namespace dotek::driver {
+
+// Of UTF-8, which a file that is rewritten keeps; SourceFile drops it.
+inline constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 using dotek::OutputFile;
 using lint::FailOn;

@@ -13,7 +13,6 @@ namespace dotek::driver {
 namespace {
 
 constexpr std::uint32_t kMostNotes = 20; // of one rule in a file
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 bool meet(const Edit& a, const Edit& b) {
   if (a.range.file != b.range.file) return false;

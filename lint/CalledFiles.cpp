@@ -13,4 +13,11 @@ const gibbs::Macro* calledMacro(const gibbs::Cycle& cycle, const std::string& na
   return nullptr;
 }
 
+const gibbs::Macro* calledMacro(const gibbs::Cycle& cycle, const gibbs::CallMacro& call,
+                                const Project& project) {
+  const auto* name = call.macro ? std::get_if<gibbs::TextLiteral>(&call.macro->node) : nullptr;
+  const std::string& file = name != nullptr ? name->text : call.bareName;
+  return file.empty() ? nullptr : calledMacro(cycle, file, project);
+}
+
 } // namespace dotek::lint

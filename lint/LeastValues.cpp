@@ -60,8 +60,7 @@ LeastValues::LeastValues(const gibbs::Cycle& cycle, const Project& project) {
   eachStatement(*cycle.cycleData, [&](const gibbs::Statement& statement) {
     const auto* call = std::get_if<gibbs::CallMacro>(&statement.node);
     if (call == nullptr) return;
-    const auto* file = call->macro ? std::get_if<gibbs::TextLiteral>(&call->macro->node) : nullptr;
-    const gibbs::Macro* macro = calledMacro(cycle, file != nullptr ? file->text : call->bareName, project);
+    const gibbs::Macro* macro = calledMacro(cycle, *call, project);
     if (macro == nullptr || macro->hasErrorNodes) return;
     const std::map<std::string, Sum> given = argumentsOf(*call, *macro);
     if (!given.empty()) readChecks(*macro, decide, given);

@@ -176,7 +176,7 @@ Json formatting(Workspace& workspace, const Json& params) {
   const SourceRange all{index.file, 0, static_cast<std::uint32_t>(index.text().bytes().size())};
   std::string text = outcome.files.front().text;
   // An editor keeps the byte order mark of the file beside its text.
-  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
+  if (text.starts_with(driver::kByteOrderMark)) text.erase(0, driver::kByteOrderMark.size());
   return Json::array({{{"range", rangeOf(index.text(), all, workspace.units)}, {"newText", text}}});
 }
 

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
+#include <map>
 #include <set>
+#include <utility>
 
 namespace dotek::lsp {
 
@@ -218,8 +220,13 @@ Json inlayHints(Workspace& workspace, const Json& params) {
   };
   for (const Hint& hint : index.hints)
     add(hint.offset, hint.label);
+  std::map<std::pair<std::uint32_t, char>, std::string> own; // a program is looked up once for each letter
   for (const OwnArgument& one : index.ownArguments)
-    add(one.range.begin, ownArgumentHint(workspace, document, one));
+    if (one.range.begin >= begin && one.range.begin <= end) {
+      const auto [known, isNew] = own.try_emplace({one.program, one.letter});
+      if (isNew) known->second = ownArgumentHint(workspace, document, one);
+      add(one.range.begin, known->second);
+    }
   return out;
 }
 

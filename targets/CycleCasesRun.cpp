@@ -358,6 +358,17 @@ bool loops(const ir::Program& program) {
   return false;
 }
 
+// A place that it goes to is computed on the control: of what it has measured, perhaps.
+bool computesPlaces(const ir::Program& program) {
+  return std::any_of(program.body.begin(), program.body.end(), [](const ir::ProgramStatement& statement) {
+    const auto* block = std::get_if<ir::NcBlock>(&statement.node);
+    return block != nullptr &&
+           std::any_of(block->words.begin(), block->words.end(), [](const ir::Word& word) {
+             return word.address >= 'X' && word.address <= 'Z' && ir::constantValue(word.value) == nullptr;
+           });
+  });
+}
+
 } // namespace
 
 // What the path touches and what the source measures, whatever the translation is: nominal contacts alone. A
@@ -367,8 +378,10 @@ bool loops(const ir::Program& program) {
 void CaseRunner::comparePath(CaseResult& result, const Values& values, const verify::Record* source) const {
   if (!values.path || !values.rehearsal || movesItself(values)) return;
   constexpr double kComputed = 0.002; // mm, of the mean of two places that were read
-  const double tolerance = std::max(pathTolerance(values), kComputed);
-  const bool rounds = values.posted && loops(values.posted->file.programs.front());
+  const ir::Program* const posted = values.posted ? &values.posted->file.programs.front() : nullptr;
+  const double tolerance =
+      std::max(pathTolerance(values), posted != nullptr && computesPlaces(*posted) ? kComputed : 0);
+  const bool rounds = posted != nullptr && loops(*posted);
   const auto contacts = [&](const verify::Record& program) {
     std::vector<verify::Difference> out = verify::compare(*values.path, {}, program, tolerance, rounds);
     std::erase_if(out, [](const verify::Difference& one) { return one.aspect != verify::Aspect::Nominal; });

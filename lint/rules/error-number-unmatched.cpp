@@ -68,12 +68,10 @@ Callee calleeOf(const gibbs::Macro& macro, const Project& project) {
 
 const gibbs::Macro* macroOf(const gibbs::CallMacro& call, const gibbs::Macro& caller,
                             const Project& project) {
-  const auto* name = call.macro ? std::get_if<gibbs::TextLiteral>(&call.macro->node) : nullptr;
-  const std::string file = name != nullptr ? name->text : call.bareName;
   for (const gibbs::Cycle* cycle : project.cycles) {
     const std::vector<const gibbs::Macro*> macros = macrosOf(*cycle);
     if (std::find(macros.begin(), macros.end(), &caller) != macros.end())
-      return file.empty() ? nullptr : calledMacro(*cycle, file, project);
+      return calledMacro(*cycle, call, project);
   }
   return nullptr;
 }

@@ -19,9 +19,7 @@ struct Uses {
 
 // What the macro that is called takes, where the folder holds it.
 const gibbs::Args* argsOf(const gibbs::CallMacro& call, const gibbs::Cycle& cycle, const Project& project) {
-  const auto* name = call.macro ? std::get_if<gibbs::TextLiteral>(&call.macro->node) : nullptr;
-  const std::string file = name != nullptr ? name->text : call.bareName;
-  const gibbs::Macro* macro = file.empty() ? nullptr : calledMacro(cycle, file, project);
+  const gibbs::Macro* macro = calledMacro(cycle, call, project);
   const gibbs::Args* out = nullptr;
   if (macro != nullptr)
     eachStatement(*macro, [&](const gibbs::Statement& statement) {
