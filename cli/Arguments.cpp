@@ -4,6 +4,7 @@
 #include "cli/Cli.h"
 #include "cli/Documents.h"
 #include "cli/Help.h"
+#include "cli/Mistakes.h"
 #include "cli/Options.h"
 #include "lint/Catalog.h"
 #include "project/Assumptions.h"
@@ -293,46 +294,6 @@ int refuse(const std::vector<std::string>& arguments, const std::string& text, s
   outcome.diagnostics.report<diag::CommandLine>({}, text);
   if (!arguments.empty()) out << notRunDocument(arguments.front(), json, format, outcome);
   return kUsage;
-}
-
-// What CLI11 found, in the words of the command line: a misspelt flag, an input too many.
-std::string mistakeOf(const CLI::ParseError& error, const CLI::App& app,
-                      const std::vector<std::string>& arguments) {
-  const auto commands = app.get_subcommands();
-  if (commands.empty()) return std::string(error.what()) + "; `dotek --help` prints the commands";
-  const CLI::App* command = commands.front();
-  std::string name = command->get_name();
-  if (!command->get_subcommands().empty()) {
-    command = command->get_subcommands().front();
-    name += " " + command->get_name();
-  }
-  const std::string help = "; `dotek " + name + " --help` prints the flags";
-  std::vector<std::string> flags;
-  std::string positional;
-  for (const CLI::Option* option : command->get_options()) {
-    if (option->get_positional()) positional = option->get_name();
-    for (const std::string& one : option->get_lnames())
-      flags.push_back("--" + one);
-  }
-  const bool hasFormats = std::find(flags.begin(), flags.end(), "--format") != flags.end();
-  for (const std::string& argument : arguments) {
-    const std::string flag = argument.substr(0, argument.find('='));
-    if (argument == "--") break;
-    const bool isPage = flag == "-o" || flag == "--html" || flag == "--output" || flag == "--out";
-    if (hasFormats && isPage)
-      return fmt::format(
-          "`dotek {0}` has no flag `{1}`; it prints what it finds: `dotek {0} .. --format html > "
-          "page.html` makes a page",
-          name, flag);
-    if (!flag.starts_with("--") || std::find(flags.begin(), flags.end(), flag) != flags.end()) continue;
-    const std::string near = nearestName(flag, flags);
-    return fmt::format("`dotek {}` has no flag `{}`{}{}", name, flag,
-                       near.empty() ? "" : "; did you mean `" + near + "`?", near.empty() ? help : "");
-  }
-  const std::string text = error.what();
-  if (!positional.empty() && text.starts_with(positional + ": At Most 1"))
-    return fmt::format("`dotek {}` takes one {}, and more are given{}", name, positional, help);
-  return text + help;
 }
 
 } // namespace

@@ -77,6 +77,12 @@ void joinAlike(Diagnostics& diagnostics, const SourceMap& sources) {
   diagnostics.all() = std::move(kept);
 }
 
+// The input is of a kind that the command does not take; the place only names the file.
+bool isOfKind(std::string_view code) {
+  return code == diag::UnknownKind::code || code == diag::WrongKind::code ||
+         code == diag::OtherDialect::code || code == diag::PostNotTaken::code;
+}
+
 } // namespace
 
 Outcome outcomeOf(Session& session, std::string output, bool keepOutput) {
@@ -95,7 +101,7 @@ Outcome outcomeOf(Session& session, std::string output, bool keepOutput) {
   });
   const bool usage = std::any_of(all.begin(), all.end(), [](const Diagnostic& d) {
     // What is in a file is an error of that input, not of the command line.
-    return d.severity == Severity::Error && isUsageCode(d.code) && !d.range.hasPlace();
+    return d.severity == Severity::Error && isUsageCode(d.code) && (!d.range.hasPlace() || isOfKind(d.code));
   });
   const bool defect = std::any_of(all.begin(), all.end(),
                                   [](const Diagnostic& d) { return d.code == diag::InternalDefect::code; });

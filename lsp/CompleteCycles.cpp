@@ -229,6 +229,7 @@ std::vector<Proposal> completeComPost(const Typing& typing) {
     addNew(out, named(typing.index, "field ", kField));
     return out;
   }
+  if (std::count(before.begin(), before.end(), '\'') % 2 != 0) return out; // a text that is printed
   out = named(typing.index, "routine ", kFunction);
   for (const stdlib::ListedWord& one : stdlib::listOf(typing.session.compostKeywords()))
     out.push_back({one.argument ? one.name + "('" : one.name, one.detail, "", kKeyword});

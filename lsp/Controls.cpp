@@ -14,9 +14,9 @@ std::string codeText(char letter, std::uint32_t tenths) {
                           : fmt::format("{}{}.{}", letter, tenths / 10, tenths % 10);
 }
 
-std::string graded(const std::string& grade, const std::string& source) {
-  if (grade.empty()) return "";
-  return fmt::format("\n\n*{}*{}", grade, source.empty() ? "" : ": " + source);
+// The source that a data file names is for `dotek list controls`.
+std::string graded(const std::string& grade) {
+  return grade.empty() ? "" : fmt::format("\n\n*{}*", grade);
 }
 
 // The letter of the axis that is `step` numbers after X; 0: none.
@@ -98,7 +98,7 @@ std::string codeFact(const Control& control, char letter, std::uint32_t tenths) 
     out += fmt::format("\n\nmodal group {}", *code->group);
   else if (letter == 'G')
     out += "\n\nthis block only";
-  return out + graded(code->grade, code->source) + fmt::format("\n\n{}", control.title);
+  return out + graded(code->grade) + fmt::format("\n\n{}", control.title);
 }
 
 std::string variableFact(const Control& control, std::uint32_t number) {
@@ -119,7 +119,7 @@ std::string variableFact(const Control& control, std::uint32_t number) {
       if (what.empty()) what = fact;
     for (const stdlib::StateRange& range : control.state)
       if (what.empty() && number >= range.first && number <= range.last)
-        what = range.title + graded(range.grade, range.source);
+        what = range.title + graded(range.grade);
   }
   if (what.empty()) return "";
   return fmt::format("**#{}** {}{}\n\n{}", number, what, control.isReadOnly(number) ? " (read only)" : "",

@@ -41,6 +41,17 @@ std::map<std::uint32_t, std::string> parameterFacts(const Index& index, const mi
   return out;
 }
 
+// Blocks that something jumps to or calls.
+std::set<std::uint64_t> targetsOf(const mikroprog::Program& program) {
+  std::set<std::uint64_t> out;
+  for (const mikroprog::Line& line : program.lines)
+    for (const mikroprog::Word& word : line.words)
+      if (const auto& number = word.value.number;
+          word.address == 'L' && number && *number >= 0 && *number < 1e6 && *number == std::floor(*number))
+        out.insert(static_cast<std::uint64_t>(*number));
+  return out;
+}
+
 } // namespace
 
 std::string mikroprogFact(const stdlib::MikroprogFunction& function) {
@@ -50,7 +61,7 @@ std::string mikroprogFact(const stdlib::MikroprogFunction& function) {
                        address.use == stdlib::AddressUse::Needed ? ", needed" : "");
   for (const std::string& note : function.notes)
     out += "\n\n" + note;
-  return out + fmt::format("\n\n*{}*: {}", function.grade, function.source);
+  return out + fmt::format("\n\n*{}*", function.grade);
 }
 
 std::optional<stdlib::MikroprogControl> mikroprogControl(const SourceMap& sources, FileId file,
@@ -77,15 +88,16 @@ void indexMikroprog(Index& index, project::Session& session, const std::string& 
                     ? known->second
                     : fmt::format("**P{}** parameter; nothing here gives it a value", number)});
   };
+  const std::set<std::uint64_t> targets = targetsOf(program);
   std::set<std::uint64_t> numbers;
   for (const mikroprog::Line& line : program.lines) {
     if (line.number) {
       const std::string key = fmt::format("N {}", *line.number);
       index.occurrences.push_back({key, Role::Definition, line.numberRange, ""});
       if (numbers.insert(*line.number).second) index.renamable.push_back(key);
-      if (line.comment)
+      if (line.comment || targets.contains(*line.number))
         index.symbols.push_back({fmt::format("N{}", *line.number),
-                                 index.utf8(*line.comment),
+                                 line.comment ? index.utf8(*line.comment) : "",
                                  SymbolKind::Key,
                                  line.range,
                                  line.numberRange,

@@ -52,7 +52,7 @@ const std::map<std::string, Request>& requests() {
 
 void Server::queue(std::string_view text) {
   Json message = Json::parse(text, nullptr, false);
-  if (message.is_array()) {
+  if (message.is_array() && !message.empty()) {
     for (Json& one : message)
       queued_.push_back({std::move(one)});
     return;

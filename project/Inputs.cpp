@@ -31,19 +31,27 @@ std::optional<std::string> beginningOf(const std::string& path, const Session& s
   return readBeginning(path, kRecognisedBytes, ignored);
 }
 
+// What concerns a file as a whole stands at its beginning, so that reports for machines name the file; the
+// text is left out, as it may be a picture.
+SourceRange wholeFile(const std::string& path, Session& session) {
+  return {session.sources().add(SourceFile(inputName(path), "", Encoding::Utf8)), 0, 0};
+}
+
 } // namespace
 
 void reportNoInput(const std::string& path, const Recognition& found, Session& session) {
   if (isPost(found)) {
-    session.diagnostics().report<diag::PostNotTaken>({}, inputName(path));
+    session.diagnostics().report<diag::PostNotTaken>(wholeFile(path, session), inputName(path));
     return;
   }
   const std::optional<std::string> text = beginningOf(path, session);
   const std::optional<Foreign> foreign = text ? foreignLanguage(*text) : std::nullopt;
   if (!foreign)
-    session.diagnostics().report<diag::UnknownKind>({}, inputName(path), otherwise(found));
+    session.diagnostics().report<diag::UnknownKind>(wholeFile(path, session), inputName(path),
+                                                    otherwise(found));
   else
-    session.diagnostics().report<diag::OtherDialect>({}, inputName(path), foreign->name, foreign->lines,
+    session.diagnostics().report<diag::OtherDialect>(wholeFile(path, session), inputName(path), foreign->name,
+                                                     foreign->lines,
                                                      foreign->remedy.empty() ? "" : ": " + foreign->remedy);
 }
 
@@ -56,10 +64,10 @@ std::optional<InputKind> kindAmong(const std::string& path, std::initializer_lis
   else if (std::find(kinds.begin(), kinds.end(), *found->kind) != kinds.end())
     return found->kind;
   else if (found->kind == InputKind::Cycle)
-    session.diagnostics().report<diag::CycleNotRun>({}, inputName(path));
+    session.diagnostics().report<diag::CycleNotRun>(wholeFile(path, session), inputName(path));
   else
-    session.diagnostics().report<diag::WrongKind>({}, inputName(path), kindText(*found->kind), expected,
-                                                  kindName(*kinds.begin()));
+    session.diagnostics().report<diag::WrongKind>(wholeFile(path, session), inputName(path),
+                                                  kindText(*found->kind), expected, kindName(*kinds.begin()));
   return std::nullopt;
 }
 

@@ -1,6 +1,7 @@
 #include "frontend/cycle/BuildAst.h"
 #include "frontend/cycle/Words.h"
 #include "support/NearestName.h"
+#include "support/WriteInstead.h"
 #include "support/messages/Cycle.h"
 
 namespace dotek::frontend::cycle {
@@ -78,7 +79,8 @@ Type Builder::type(Parser::TypeContext& context) {
                            : word == "bool"       ? "flag"
                            : word == "string"     ? "text"
                                                   : nearestName(word, typeWords());
-  error<diag::UnknownType>(out.range, word, near.empty() ? "" : " (did you mean `" + near + "`?)");
+  error<diag::UnknownType>(out.range, word, near.empty() ? "" : " (did you mean `" + near + "`?)").fix =
+      writeInstead(out.range, near);
   // What is meant, so that the value beside it is not judged by another type.
   if (const std::optional<TypeName> meant = typeOf(near)) out.name = *meant;
   return out;

@@ -1,6 +1,7 @@
 #include "frontend/cycle/Checker.h"
 #include "frontend/cycle/Link.h"
 #include "frontend/cycle/Words.h"
+#include "support/WriteInstead.h"
 #include "support/messages/Cycle.h"
 
 #include <algorithm>
@@ -79,8 +80,10 @@ void Checker::call(const Call& call, Known& known) {
       std::string names;
       for (const auto& taken : parameters)
         names += (names.empty() ? "; it has `" : ", `") + taken.first + "`";
-      diagnostics_.report<diag::UnknownArgument>(one.name.range, call.cycle.text, one.name.text,
-                                                 near.empty() ? names : "; did you mean `" + near + "`?");
+      diagnostics_
+          .report<diag::UnknownArgument>(one.name.range, call.cycle.text, one.name.text,
+                                         near.empty() ? names : "; did you mean `" + near + "`?")
+          .fix = writeInstead(one.name.range, near);
       given.insert(near); // what is meant by it is not missing
     }
     if (!self) quantity(*one.value, known);

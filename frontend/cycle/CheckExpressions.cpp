@@ -4,6 +4,7 @@
 #include "ir/Match.h"
 #include "support/Decimal.h"
 #include "support/NearestName.h"
+#include "support/WriteInstead.h"
 #include "support/messages/Cycle.h"
 
 #include <algorithm>
@@ -51,6 +52,13 @@ bool isBareNumber(const Expression& expression) {
   return number != nullptr && number->unit == Unit::None;
 }
 
+// The unit after `5` or `-5`; nothing where the number is in brackets.
+std::optional<Fix> withUnit(const Expression& number, std::string_view unit) {
+  if (std::holds_alternative<Bracketed>(number.node)) return std::nullopt;
+  const SourceRange after{number.range.file, number.range.end, number.range.end};
+  return Fix{Fix::Applicability::Display, fmt::format("add `{}`", unit), {{after, fmt::format(" {}", unit)}}};
+}
+
 } // namespace
 
 void Checker::unknownName(SourceRange range, const std::string& name) {
@@ -69,7 +77,7 @@ void Checker::unknownName(SourceRange range, const std::string& name) {
   std::string hint = near.empty() ? "" : "; did you mean `" + near + "`?";
   if (name == "pi" && near.empty())
     hint = "; angles have their unit, `180 deg`, and functions take and give them so";
-  diagnostics_.report<diag::UnknownValueName>(range, name, hint);
+  diagnostics_.report<diag::UnknownValueName>(range, name, hint).fix = writeInstead(range, near);
 }
 
 bool Checker::unnamedTouch(const Member& member) {
@@ -96,8 +104,10 @@ void Checker::mismatch(const Expression& left, const Quantity& a, const Expressi
                        SourceRange where, std::string_view doing) {
   const auto bare = [&](const Expression& number, const Quantity& other) {
     if (!isBareNumber(number) || unitFor(other).empty()) return false;
-    diagnostics_.report<diag::UnitMissing>(number.range, text(number.range), quantityText(other),
-                                           fmt::format("{} {}", text(number.range), unitFor(other)));
+    diagnostics_
+        .report<diag::UnitMissing>(number.range, text(number.range), quantityText(other),
+                                   fmt::format("{} {}", text(number.range), unitFor(other)))
+        .fix = withUnit(number, unitFor(other));
     return true;
   };
   if (bare(right, a) || bare(left, b)) return;
@@ -123,11 +133,15 @@ void Checker::want(const Expression& expression, Quantity wanted, std::string_vi
   const double value = number == nullptr ? 0 : number->value;
   if (isBareNumber(expression) && !unitFor(wanted).empty()) {
     std::string right = fmt::format("{} {}", written, unitFor(wanted));
+    std::optional<Fix> repair = withUnit(expression, unitFor(wanted));
     // A control counts a pause in milliseconds.
     constexpr double kLongPause = 50; // s
-    if (wanted.base == Base::Time && value >= kLongPause)
+    if (wanted.base == Base::Time && value >= kLongPause) {
       right = fmt::format("{} s` where these are milliseconds, else `{}", numberText(value / 1000), right);
-    diagnostics_.report<diag::UnitMissing>(expression.range, written, quantityText(wanted), right);
+      repair.reset(); // which of them is meant is not known
+    }
+    diagnostics_.report<diag::UnitMissing>(expression.range, written, quantityText(wanted), right).fix =
+        std::move(repair);
     return;
   }
   std::string kind = quantityText(found);
@@ -221,8 +235,9 @@ Quantity Checker::name(const Expression& expression, const NameUse& use, const K
   case Symbol::Role::Call: {
     const std::string member =
         symbol.role == Symbol::Role::Touch ? symbol.direction ? "at_x" : "at" : "RESULT";
-    diagnostics_.report<diag::MemberWanted>(
+    Diagnostic& wanted = diagnostics_.report<diag::MemberWanted>(
         expression.range, use.name, symbol.role == Symbol::Role::Touch ? "touch" : "called cycle", member);
+    if (member == "at") wanted.fix = writeInstead(expression.range, use.name + ".at");
     return {};
   }
   case Symbol::Role::Result:
@@ -287,21 +302,26 @@ Quantity Checker::member(const Expression& expression, const Member& member, con
     std::string names;
     for (const std::string& one : members)
       names += (names.empty() ? "`" : ", `") + object + "." + one + "`";
-    diagnostics_.report<diag::UnknownMember>(member.member.range, object, part, names);
+    diagnostics_.report<diag::UnknownMember>(member.member.range, object, part, names).fix =
+        writeInstead(member.member.range, nearestName(part, members));
     return {};
   }
   if (symbol.cycle == nullptr) return {};
   std::string names;
+  NearestName near(part);
   for (const Statement* statement : declarations(*symbol.cycle)) {
     const auto* result = std::get_if<Result>(&statement->node);
     if (result == nullptr) continue;
     for (const Name& one : result->names) {
       if (one.text == part) return quantityOf(result->type);
       names += (names.empty() ? "`" : ", `") + object + "." + one.text + "`";
+      if (!near.full()) near.offer(one.text);
     }
   }
-  diagnostics_.report<diag::UnknownMember>(member.member.range, object, part,
-                                           names.empty() ? "nothing: it has no results" : names);
+  diagnostics_
+      .report<diag::UnknownMember>(member.member.range, object, part,
+                                   names.empty() ? "nothing: it has no results" : names)
+      .fix = writeInstead(member.member.range, near.result());
   return {};
 }
 
@@ -312,8 +332,10 @@ Quantity Checker::function(const Expression& expression, const Function& functio
     given.push_back(quantity(*argument, known));
   if (std::find(kFunctions.begin(), kFunctions.end(), called) == kFunctions.end()) {
     const std::string near = nearestName(called, kFunctions);
-    diagnostics_.report<diag::UnknownFunction>(function.name.range, called,
-                                               near.empty() ? "" : " (did you mean `" + near + "`?)");
+    diagnostics_
+        .report<diag::UnknownFunction>(function.name.range, called,
+                                       near.empty() ? "" : " (did you mean `" + near + "`?)")
+        .fix = writeInstead(function.name.range, near);
     return {};
   }
   const bool two = called == "min" || called == "max";

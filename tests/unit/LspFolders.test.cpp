@@ -66,6 +66,8 @@ TEST_CASE("lsp: from the post to a cycle that is not open, and back") {
   const std::string half = "probe:\nIF CycleType?('side')\n 'G1X'OpFieldData#('XY') EOL\nEND\nRETURN\n";
   client.open(shop.progPath, half);
   CHECK(client.labels(shop.progPath, 2, 22) == std::vector<std::string>{"X", "G"});
+  CHECK(client.labels(shop.progPath, 2, 4).empty()); // inside of a text that is printed
+  CHECK(has(client.labels(shop.progPath, 2, 26), "EOL"));
   const Json actions = client.result("textDocument/codeAction", all(shop.progPath));
   const bool repairs = std::any_of(actions.begin(), actions.end(), [](const Json& one) {
     return one["title"].get<std::string>().find("write `'X'`") != std::string::npos;
@@ -198,6 +200,10 @@ TEST_CASE("lsp: Mikroprog: codes, parameters, block numbers") {
   CHECK(hover(client, path, 1, 5).find("**P1**") != std::string::npos);
   CHECK(has(client.labels(path, 2, 5), "G26"));
   CHECK(client.labels(path, 2, 9).front() == "L10");
+  std::vector<std::string> symbols; // blocks with a comment, and those that something jumps to
+  for (const Json& one : client.result("textDocument/documentSymbol", all(path)))
+    symbols.push_back(one["name"]);
+  CHECK(symbols == std::vector<std::string>{"N10", "N20", "N60"});
   CHECK(has(client.labels(path, 3, 9), "P1"));
   Json params = at(path, 4, 1);
   params["newName"] = "600";
@@ -294,4 +300,24 @@ TEST_CASE("lsp: what is offered for two findings of a line alike is offered once
   }
   CHECK(std::count(titles.begin(), titles.end(), "Ignore suf-address-missing in this line") == 1);
   CHECK(std::count(titles.begin(), titles.end(), "Explain suf-address-missing") == 1);
+}
+
+TEST_CASE("lsp: the repair that a message of a cycle states is offered") {
+  const TestFolder folder("lsp-repairs");
+  const std::string text = "cycle side \"Side\"\n\nparameter reach : lenght = 10 mm \"Reach\"\n"
+                           "result size : length \"Size\"\n\nspindle off\nprobe on\n"
+                           "touch x by 5 -> right\nsize = rght.at - right.att + sqr(2)\n"
+                           "size = right + 1 mm\nprobe off\n";
+  const std::string path = folder.write("side.cycle", text);
+  Client client;
+  client.open(path, text);
+  std::vector<std::string> titles;
+  for (const Json& action : client.result("textDocument/codeAction", all(path)))
+    if (action["kind"] == "quickfix") titles.push_back(action["title"]);
+  for (const char* wanted :
+       {"write `length`", "add `mm`", "write `right`", "write `at`", "write `sqrt`", "write `right.at`"})
+    CHECK_MESSAGE(
+        std::any_of(titles.begin(), titles.end(),
+                    [&](const std::string& title) { return title.find(wanted) != std::string::npos; }),
+        wanted);
 }

@@ -65,6 +65,13 @@ TEST_CASE("lsp: parameters of other types are refused in plain words") {
   refused("workspace/executeCommand", 7);
 }
 
+TEST_CASE("lsp: an empty batch is answered") {
+  Client client;
+  const auto answers = client.server().receive("[]");
+  REQUIRE(answers.size() == 1);
+  CHECK(answers.front()["error"]["code"] == -32600);
+}
+
 TEST_CASE("lsp: completion after GOTO lists each block of the program once, after # each variable") {
   const TestFolder folder("lsp-once");
   Client client;
