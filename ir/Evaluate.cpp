@@ -216,7 +216,7 @@ CheckRun runChecks(const Cycle& cycle, Environment environment, std::uint32_t ma
         [](const OpaqueBlock&) -> std::optional<End> { return End::Unknown; },
         // What verify() refuses in checks, and what changes no variable of the cycle.
         [](const OneOf<Store, Label, Move, Measure, CallCycle, ProbePower, Spindle, Coolant, SetMode, Dwell,
-                       Stop, Comment> auto&) -> std::optional<End> { return std::nullopt; });
+                       Stop, Comment, Port, Print> auto&) -> std::optional<End> { return std::nullopt; });
     if (end) return {*end, *end == End::Passes ? nullptr : &statement};
     if (!target) {
       ++at;

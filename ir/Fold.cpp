@@ -102,7 +102,9 @@ bool removeJumps(std::vector<CycleStatement>& list) {
         [&](const Jump& node) { jumps(node.target, true); },
         [&](const Branch& node) { jumps(node.target, !mayFail(node.condition)); },
         [&](const OneOf<Assign, Store, Return, Move, Measure, CallCycle, ProbePower, Spindle, Coolant,
-                        SetMode, Dwell, Stop, Alarm, Comment, OpaqueBlock> auto&) { following.clear(); });
+                        SetMode, Dwell, Stop, Alarm, Comment, OpaqueBlock, Port, Print> auto&) {
+          following.clear();
+        });
   }
   for (std::size_t i = 0; i < list.size(); ++i) {
     const auto* label = std::get_if<Label>(&list[i].node);

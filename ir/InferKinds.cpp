@@ -121,8 +121,8 @@ private:
           addIndex(node.number);
           add(node.value, Kind::Number);
         },
-        [&](const OneOf<Label, Jump, Return, ProbePower, Spindle, Coolant, Dwell, Stop, Alarm,
-                        Comment> auto&) {
+        [&](const OneOf<Label, Jump, Return, ProbePower, Spindle, Coolant, Dwell, Stop, Alarm, Comment, Port,
+                        Print> auto&) {
           eachSlot(statement, [&](const ExpressionPtr& value) { add(value, Kind::Number); });
         });
   }

@@ -170,7 +170,7 @@ void eachRequirement(const CycleStatement& statement,
       },
       [&](const SetMode& node) { require(node.system, Kind::WorkOffset); },
       [](const OneOf<Assign, Store, Label, Jump, Branch, Return, ProbePower, Spindle, Coolant, Dwell, Stop,
-                     Alarm, Comment, OpaqueBlock> auto&) {});
+                     Alarm, Comment, OpaqueBlock, Port, Print> auto&) {});
 }
 
 namespace {

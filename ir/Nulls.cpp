@@ -34,7 +34,7 @@ Set behind(const std::vector<CycleStatement>& list, std::size_t from, std::size_
         if (taken == negated) nulls.erase(use->variable);
       },
       [](const OneOf<Store, Label, Jump, Return, Move, Measure, CallCycle, ProbePower, Spindle, Coolant,
-                     SetMode, Dwell, Stop, Alarm, Comment, OpaqueBlock> auto&) {});
+                     SetMode, Dwell, Stop, Alarm, Comment, OpaqueBlock, Port, Print> auto&) {});
   return nulls;
 }
 

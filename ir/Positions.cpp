@@ -189,8 +189,8 @@ Fact behind(const CycleStatement& statement, Fact fact, const Starts& starts) {
           forget(axis);
         fact.system = nullptr;
       },
-      [](const OneOf<Label, Jump, Branch, Return, ProbePower, Spindle, Coolant, Dwell, Stop, Alarm,
-                     Comment> auto&) {});
+      [](const OneOf<Label, Jump, Branch, Return, ProbePower, Spindle, Coolant, Dwell, Stop, Alarm, Comment,
+                     Port, Print> auto&) {});
   if (!std::holds_alternative<Assign>(statement.node))
     for (std::size_t i = 0; i < at.size(); ++i)
       if (!sameAxis(at[i], fact.position[i])) fact.copies[i].reset();
@@ -252,7 +252,7 @@ std::vector<const CycleStatement*> lastMeasurements(const Cycle& cycle) {
             [&](const Measure&) { return &cycle.body[at]; },
             [&](const CallCycle& node) { return node.power ? last : &cycle.body[at]; },
             [&](const OneOf<Assign, Store, Label, Jump, Branch, Return, Move, ProbePower, Spindle, Coolant,
-                            SetMode, Dwell, Stop, Alarm, Comment> auto&) { return last; });
+                            SetMode, Dwell, Stop, Alarm, Comment, Port, Print> auto&) { return last; });
       },
       [](const CycleStatement*& into, const CycleStatement* other) {
         if (!into || into == other) return false;
@@ -277,7 +277,7 @@ bool probes(const CycleStatement& statement) {
       statement, [](const Measure&) { return true; }, [](const CallCycle& node) { return node.moves; },
       [](const Move& node) { return node.motion == Motion::Protected; },
       [](const OneOf<Assign, Store, Label, Jump, Branch, Return, ProbePower, Spindle, Coolant, SetMode, Dwell,
-                     Stop, Alarm, Comment, OpaqueBlock> auto&) { return false; });
+                     Stop, Alarm, Comment, OpaqueBlock, Port, Print> auto&) { return false; });
 }
 
 bool probes(const Cycle& cycle) {
@@ -298,7 +298,7 @@ bool countsFrom(const Cycle& cycle, Frame frame) {
         },
         [&](const Move& node) { return std::any_of(node.axes.begin(), node.axes.end(), counts); },
         [](const OneOf<Assign, Store, Label, Jump, Branch, Return, ProbePower, Spindle, Coolant, SetMode,
-                       Dwell, Stop, Alarm, Comment, OpaqueBlock> auto&) { return false; });
+                       Dwell, Stop, Alarm, Comment, OpaqueBlock, Port, Print> auto&) { return false; });
   });
 }
 

@@ -99,7 +99,7 @@ private:
           return taken != true;
         },
         [](const OneOf<Store, Move, Measure, CallCycle, ProbePower, Spindle, Coolant, SetMode, Dwell, Stop,
-                       Comment, OpaqueBlock> auto&) { return true; });
+                       Comment, OpaqueBlock, Port, Print> auto&) { return true; });
   }
 
   void reachLabel(LabelId label, const Environment& environment) {
@@ -147,7 +147,7 @@ CycleStatement specialisedStatement(const CycleStatement& statement, const Envir
   const bool takesNull = match(
       out, [](const OneOf<Assign, OpaqueBlock> auto&) { return true; },
       [](const OneOf<Store, Label, Jump, Branch, Return, Move, Measure, CallCycle, ProbePower, Spindle,
-                     Coolant, SetMode, Dwell, Stop, Alarm, Comment> auto&) { return false; });
+                     Coolant, SetMode, Dwell, Stop, Alarm, Comment, Port, Print> auto&) { return false; });
   eachSlot(out, [&](ExpressionPtr& slot) {
     ExpressionPtr value = substitute(slot, environment);
     if (takesNull || !std::holds_alternative<NullValue>(value->node)) slot = std::move(value);
@@ -207,7 +207,7 @@ std::vector<CycleStatement> specialised(const std::vector<CycleStatement>& list,
         },
         [&](const OneOf<Jump, Return, Alarm> auto&) { reached = false; },
         [](const OneOf<Store, Label, Branch, Move, Measure, CallCycle, ProbePower, Spindle, Coolant, SetMode,
-                       Dwell, Stop, Comment, OpaqueBlock> auto&) {});
+                       Dwell, Stop, Comment, OpaqueBlock, Port, Print> auto&) {});
   }
   return out;
 }
@@ -339,7 +339,7 @@ private:
           now_.reset();
         },
         [&](const OneOf<Store, Move, Measure, CallCycle, ProbePower, Spindle, Coolant, SetMode, Dwell, Stop,
-                        Comment, OpaqueBlock> auto&) {
+                        Comment, OpaqueBlock, Port, Print> auto&) {
           out_.statements.push_back(specialisedStatement(statement, *now_));
         });
     return true;

@@ -119,7 +119,9 @@ private:
                   variable, value, statement);
         },
         [&](const OneOf<Store, Label, Jump, Return, Move, Measure, CallCycle, ProbePower, Spindle, Coolant,
-                        SetMode, Dwell, Stop, Alarm, Comment, OpaqueBlock> auto&) { slotKinds(statement); });
+                        SetMode, Dwell, Stop, Alarm, Comment, OpaqueBlock, Port, Print> auto&) {
+          slotKinds(statement);
+        });
   }
 
   void slotKinds(const CycleStatement& statement) {
@@ -163,7 +165,7 @@ private:
   void nullsOf(const CycleStatement& statement, const NumberSet& nulls) {
     match(
         statement, [&](const Branch& node) { nullsOf(node.condition, statement, nulls); },
-        [&](const OneOf<Assign, OpaqueBlock> auto&) { slotNulls(true, statement, nulls); },
+        [&](const OneOf<Assign, OpaqueBlock, Port, Print> auto&) { slotNulls(true, statement, nulls); },
         // What its caller leaves out a program may be given as it is.
         [&](const CallCycle& node) { slotNulls(node.cycle == kProgram, statement, nulls); },
         [&](const OneOf<Store, Label, Jump, Return, Move, Measure, ProbePower, Spindle, Coolant, SetMode,

@@ -106,7 +106,7 @@ public:
   void operator()(const Dwell& node) { need(node.seconds, "the time of a dwell"); }
   void operator()(const Stop&) {}
   void operator()(const Alarm&) {}
-  void operator()(const Comment&) {}
+  void operator()(const OneOf<Comment, Port, Print> auto&) {}
   void operator()(const OpaqueBlock& node) {
     for (const Word& word : node.words) {
       if (word.address < 'A' || word.address > 'Z') fault("a word has no letter", word.range);
@@ -199,7 +199,7 @@ struct Doing {
   std::string_view operator()(const OpaqueBlock&) const { return "a block whose meaning is not known"; }
   std::string_view operator()(const Return&) const { return "a return"; }
   std::string_view
-  operator()(const OneOf<Assign, Store, Label, Jump, Branch, Stop, Alarm, Comment> auto&) const {
+  operator()(const OneOf<Assign, Store, Label, Jump, Branch, Stop, Alarm, Comment, Port, Print> auto&) const {
     return "";
   }
 };

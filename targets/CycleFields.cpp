@@ -141,7 +141,8 @@ bool computesPlaces(const ir::Cycle& cycle) {
     bool found = false;
     const bool moves = ir::match(
         one,
-        [](const ir::OneOf<ir::Move, ir::Measure, ir::CallCycle, ir::OpaqueBlock> auto&) { return true; },
+        [](const ir::OneOf<ir::Move, ir::Measure, ir::CallCycle, ir::OpaqueBlock, ir::Port,
+                           ir::Print> auto&) { return true; },
         [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Comment, ir::Assign,
                            ir::ProbePower, ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell,
                            ir::Stop, ir::Alarm> auto&) { return false; });
@@ -242,7 +243,9 @@ bool readsEntryHeight(const ir::Cycle& cycle, const stdlib::Control& control) {
         [](const ir::CallCycle& call) { return call.moves; },
         [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Comment, ir::Assign,
                            ir::ProbePower, ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell,
-                           ir::Stop, ir::Alarm, ir::OpaqueBlock> auto&) { return false; });
+                           ir::Stop, ir::Alarm, ir::OpaqueBlock, ir::Port, ir::Print> auto&) {
+          return false;
+        });
     if (moves) break;
     ir::eachNode(statement, [&](const ir::Expression& node) {
       const auto* variable = std::get_if<ir::MachineVariable>(&node.node);

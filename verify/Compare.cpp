@@ -68,7 +68,7 @@ public:
     };
     if (stopsItself(source_) && stopsItself(target_) && !rules_.atMeasures)
       compareState(pair_, source_.after, target_.after, " at its alarm", source_.endedAt, target_.endedAt);
-    if (rules_.sameProgram && source_.printed != target_.printed)
+    if (!samePrinted())
       add(Aspect::Printed, fmt::format("`{}` against `{}`", source_.printed, target_.printed), {}, {});
     std::stable_sort(out_.begin(), out_.end(),
                      [](const Difference& a, const Difference& b) { return a.aspect < b.aspect; });
@@ -76,6 +76,35 @@ public:
   }
 
 private:
+  // Of a program the same bytes. Macros of another set may leave a result that is rounded otherwise in the
+  // last digit that is printed.
+  bool samePrinted() const {
+    const std::string &a = source_.printed, &b = target_.printed;
+    if (rules_.sameProgram || a == b) return a == b;
+    std::size_t at = 0, other = 0;
+    while (at < a.size() && other < b.size()) {
+      const auto isOfNumber = [](char c) { return (c >= '0' && c <= '9') || c == '.' || c == '-'; };
+      const auto number = [&](const std::string& text, std::size_t& from) {
+        const std::size_t begin = from;
+        while (from < text.size() && isOfNumber(text[from]))
+          ++from;
+        return text.substr(begin, from - begin);
+      };
+      if (!isOfNumber(a[at]) || !isOfNumber(b[other])) {
+        if (a[at++] != b[other++]) return false;
+        continue;
+      }
+      const std::string left = number(a, at), right = number(b, other);
+      if (left == right) continue;
+      const std::size_t point = left.find('.');
+      const std::size_t decimals = point == std::string::npos ? 0 : left.size() - point - 1;
+      constexpr double kLastDigit = 1.01;
+      const auto x = parseNumber(left), y = parseNumber(right);
+      if (!x || !y || std::abs(*x - *y) > kLastDigit * std::pow(10.0, -static_cast<double>(decimals)))
+        return false;
+    }
+    return at == a.size() && other == b.size();
+  }
   void add(Aspect aspect, std::string text, SourceRange source, SourceRange target) {
     pair_.add(aspect, std::move(text), source, target);
   }

@@ -375,7 +375,7 @@ bool movesProbe(const ir::CycleStatement& statement) {
       [](const ir::CallCycle& call) { return call.moves; },
       [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Comment, ir::Assign, ir::ProbePower,
                          ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop, ir::Alarm,
-                         ir::OpaqueBlock> auto&) { return false; });
+                         ir::OpaqueBlock, ir::Port, ir::Print> auto&) { return false; });
 }
 
 bool callsMacros(const ir::Cycle& cycle) {
@@ -385,7 +385,9 @@ bool callsMacros(const ir::Cycle& cycle) {
         [](const ir::Move& move) { return move.motion == ir::Motion::Protected; },
         [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Assign, ir::Store, ir::ProbePower,
                            ir::Comment, ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell,
-                           ir::Stop, ir::Alarm, ir::OpaqueBlock> auto&) { return false; });
+                           ir::Stop, ir::Alarm, ir::OpaqueBlock, ir::Port, ir::Print> auto&) {
+          return false;
+        });
   });
 }
 

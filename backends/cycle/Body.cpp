@@ -48,7 +48,9 @@ private:
           },
           [&](const ir::OneOf<ir::Label, ir::Store, ir::Move, ir::Measure, ir::CallCycle, ir::ProbePower,
                               ir::Comment, ir::Assign, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell,
-                              ir::Stop, ir::Alarm, ir::OpaqueBlock> auto&) { one(statement, i++); });
+                              ir::Stop, ir::Alarm, ir::OpaqueBlock, ir::Port, ir::Print> auto&) {
+            one(statement, i++);
+          });
     }
   }
 
@@ -162,6 +164,11 @@ private:
         },
         [&](const ir::Alarm& node) {
           s_.add("alarm" + quoted(node.message.empty() ? "Alarm of the source" : node.message), origin);
+        },
+        [&](const ir::OneOf<ir::Port, ir::Print> auto&) {
+          s_.refuse(
+              range, "what is printed through the port",
+              "the cycle language has no words for it; show it with a `stop`, or return it as a result");
         },
         [&](const ir::OpaqueBlock& node) {
           std::string words;

@@ -178,7 +178,9 @@ private:
           [](const ir::OneOf<ir::Label, ir::Comment> auto&) { return true; },
           [](const ir::OneOf<ir::Jump, ir::Branch, ir::Store, ir::Move, ir::Measure, ir::CallCycle,
                              ir::ProbePower, ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell,
-                             ir::Stop, ir::Alarm, ir::OpaqueBlock> auto&) { return false; });
+                             ir::Stop, ir::Alarm, ir::OpaqueBlock, ir::Port, ir::Print> auto&) {
+            return false;
+          });
       if (!good) return false;
     }
     return any;
@@ -253,7 +255,8 @@ private:
           [&](const ir::Return&) { return Step{.next = list_.size()}; },
           [&](const ir::OneOf<ir::Label, ir::Comment> auto&) { return Step{.next = at + 1}; },
           [&](const ir::OneOf<ir::Store, ir::Move, ir::Measure, ir::CallCycle, ir::ProbePower, ir::Spindle,
-                              ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop, ir::OpaqueBlock> auto&) {
+                              ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop, ir::OpaqueBlock, ir::Port,
+                              ir::Print> auto&) {
             return refused(range, "a statement of the checks that does something");
           });
       if (step.failed) return std::nullopt;

@@ -105,7 +105,7 @@ private:
           },
           [](const ir::OneOf<ir::Label, ir::Store, ir::Move, ir::Measure, ir::CallCycle, ir::ProbePower,
                              ir::Comment, ir::Assign, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell,
-                             ir::Stop, ir::OpaqueBlock> auto&) {});
+                             ir::Stop, ir::OpaqueBlock, ir::Port, ir::Print> auto&) {});
     }
     if (now) atEnd(*now);
     return forward;

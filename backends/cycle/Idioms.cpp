@@ -242,7 +242,7 @@ private:
           },
           [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::ProbePower, ir::Comment, ir::Assign,
                              ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop,
-                             ir::Alarm> auto&) {});
+                             ir::Alarm, ir::Port, ir::Print> auto&) {});
     }
   }
 

@@ -79,7 +79,7 @@ private:
         },
         [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::ProbePower, ir::Comment,
                            ir::Assign, ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop,
-                           ir::Alarm, ir::OpaqueBlock> auto&) {});
+                           ir::Alarm, ir::OpaqueBlock, ir::Port, ir::Print> auto&) {});
   }
 
   std::map<ir::VariableId, std::string> roles_;

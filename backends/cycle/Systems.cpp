@@ -16,7 +16,7 @@ bool setsSystems(const ir::CycleStatement& statement) {
       statement, [](const ir::OneOf<ir::Measure, ir::CallCycle> auto&) { return true; },
       [](const ir::OneOf<ir::Move, ir::Label, ir::Jump, ir::Branch, ir::Store, ir::ProbePower, ir::Comment,
                          ir::Assign, ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop,
-                         ir::Alarm, ir::OpaqueBlock> auto&) { return false; });
+                         ir::Alarm, ir::OpaqueBlock, ir::Port, ir::Print> auto&) { return false; });
 }
 
 } // namespace

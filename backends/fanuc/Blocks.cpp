@@ -1,5 +1,6 @@
 // NC blocks: statements of one block of the source share a line.
 #include "backends/common/ToolLength.h"
+#include "backends/fanuc/PrintText.h"
 #include "backends/fanuc/State.h"
 #include "support/Decimal.h"
 #include "support/messages/Fanuc.h"
@@ -40,7 +41,8 @@ public:
         },
         // Lines of their own (isAlone), and what Flow.cpp writes.
         [](const ir::OneOf<ir::Measure, ir::CallCycle, ir::OpaqueBlock, ir::Assign, ir::Store, ir::Label,
-                           ir::Jump, ir::Branch, ir::Return, ir::Alarm, ir::Comment> auto&) {});
+                           ir::Jump, ir::Branch, ir::Return, ir::Alarm, ir::Comment, ir::Port,
+                           ir::Print> auto&) {});
     ranges_.insert(ranges_.end(), origin.ranges.begin(), origin.ranges.end());
   }
 
@@ -233,7 +235,9 @@ bool isAlone(const State& state, const ir::CycleStatement& statement) {
         return state.macros.find(node.on ? stdlib::Intent::ProbeOn : stdlib::Intent::ProbeOff) != nullptr ||
                state.control.find(node.on ? Function::ProbeOn : Function::ProbeOff) == nullptr;
       },
-      [](const ir::OneOf<ir::Measure, ir::CallCycle, ir::OpaqueBlock> auto&) { return true; },
+      [](const ir::OneOf<ir::Measure, ir::CallCycle, ir::OpaqueBlock, ir::Port, ir::Print> auto&) {
+        return true;
+      },
       [](const ir::OneOf<ir::SetMode, ir::Spindle, ir::Coolant, ir::Dwell, ir::Stop, ir::Assign, ir::Store,
                          ir::Label, ir::Jump, ir::Branch, ir::Return, ir::Alarm, ir::Comment> auto&) {
         return false;
@@ -246,7 +250,8 @@ bool isBlock(const ir::CycleStatement& statement) {
       [](const ir::OneOf<ir::Move, ir::SetMode, ir::Spindle, ir::Coolant, ir::ProbePower, ir::Dwell,
                          ir::Stop> auto&) { return true; },
       [](const ir::OneOf<ir::Measure, ir::CallCycle, ir::OpaqueBlock, ir::Assign, ir::Store, ir::Label,
-                         ir::Jump, ir::Branch, ir::Return, ir::Alarm, ir::Comment> auto&) { return false; });
+                         ir::Jump, ir::Branch, ir::Return, ir::Alarm, ir::Comment, ir::Port,
+                         ir::Print> auto&) { return false; });
 }
 
 // The only code of a block, where it limits how far the source's control reads ahead (G103 of a Haas) and the
@@ -316,6 +321,8 @@ void writeAlone(State& state, const ir::CycleStatement& statement) {
       [&](const ir::CallCycle& node) { writeCycle(state, node, statement.origin); },
       [&](const ir::ProbePower& node) { writeProbePower(state, node.on, statement.origin); },
       [&](const ir::OpaqueBlock& node) { writeOpaque(state, node, statement.origin); },
+      [&](const ir::Port& node) { state.sheet.add(portText(node), statement.origin); },
+      [&](const ir::Print& node) { state.sheet.add(printText(node), statement.origin); },
       // isAlone() says no.
       [](const ir::OneOf<ir::SetMode, ir::Spindle, ir::Coolant, ir::Dwell, ir::Stop, ir::Assign, ir::Store,
                          ir::Label, ir::Jump, ir::Branch, ir::Return, ir::Alarm, ir::Comment> auto&) {});

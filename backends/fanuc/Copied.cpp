@@ -189,7 +189,7 @@ private:
         [&](const ir::OpaqueBlock& node) { apply(at, node, now); },
         [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Move, ir::Measure, ir::CallCycle,
                            ir::ProbePower, ir::Comment, ir::Assign, ir::Return, ir::Spindle, ir::Coolant,
-                           ir::Dwell, ir::Stop, ir::Alarm> auto&) {});
+                           ir::Dwell, ir::Stop, ir::Alarm, ir::Port, ir::Print> auto&) {});
     return now;
   }
   void clear(InForce& now, Function function) const {

@@ -91,6 +91,7 @@ public:
         at_ = list == &state_.cycle.body ? &statement : nullptr;
         ir::rewrite(statement, [&](const ir::ExpressionPtr& node) { return used(node); });
         if (auto* store = std::get_if<ir::Store>(&statement.node)) stored(*store);
+        if (auto* print = std::get_if<ir::Print>(&statement.node)) printed(*print);
       }
   }
 
@@ -114,6 +115,40 @@ private:
     const auto there = moved(*number, range);
     if (!there || *there == *number) return expression;
     return ir::machineVariable(ir::constant(*there, machine->number->range), expression->range);
+  }
+
+  void printed(ir::Print& print) {
+    if (!same() && state_.reported.insert("port").second)
+      state_.diagnostics.report<diag::OutputNotKnown>(range_, state_.control.title);
+    for (ir::PrintPiece& piece : print.pieces) {
+      if (!piece.number) continue;
+      const std::uint32_t number = *piece.number;
+      if (number <= state_.control.locals) {
+        state_.refuse<diag::MachineVariableRefused>(range_, std::to_string(number), state_.control.title);
+        continue;
+      }
+      if (const auto there = resultThere(number); there && !*there)
+        refuseElsewhere(
+            number, range_,
+            fmt::format(
+                "holds a result of {}, which the macros of {} leave elsewhere (`#600=#{}` in a block before "
+                "keeps it in a variable of your own)",
+                state_.options.source->title, state_.macros.title, number));
+      else
+        piece.number = moved(number, range_).value_or(number);
+    }
+  }
+
+  // Nothing: no result of another set than the target's. Else whether the target's leaves it in a known
+  // place.
+  std::optional<bool> resultThere(std::uint32_t number) {
+    const stdlib::MacroSet* const source = state_.options.source;
+    if (source == nullptr || isSame(*source, state_.macros)) return std::nullopt;
+    const bool result =
+        std::any_of(source->overwritten.begin(), source->overwritten.end(),
+                    [&](const auto& range) { return range.first <= number && number <= range.second; });
+    if (!result) return std::nullopt;
+    return packaged(number) && isWrittenFirst(number);
   }
 
   // What the macros of the source overwrite, where the target has them with other variables.

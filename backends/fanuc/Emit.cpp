@@ -84,7 +84,7 @@ bool takesOwnLength(const State& state) {
         [](const ir::Measure&) { return Then::Ends; },
         [](const ir::OneOf<ir::Store, ir::ProbePower, ir::Comment, ir::Assign, ir::Spindle, ir::Coolant,
                            ir::SetMode, ir::Dwell, ir::Stop, ir::Alarm, ir::Label, ir::Jump, ir::Branch,
-                           ir::Return> auto&) { return Then::GoOn; });
+                           ir::Return, ir::Port, ir::Print> auto&) { return Then::GoOn; });
     if (then == Then::Ends) return false;
     taken = taken || then == Then::Takes;
     if (then == Then::GoOn) open.insert(open.end(), next[at].begin(), next[at].end());

@@ -80,7 +80,7 @@ private:
           return i + 1;
         },
         [&](const ir::OneOf<ir::Move, ir::Measure, ir::CallCycle, ir::ProbePower, ir::Spindle, ir::Coolant,
-                            ir::SetMode, ir::Dwell, ir::Stop, ir::OpaqueBlock> auto&) {
+                            ir::SetMode, ir::Dwell, ir::Stop, ir::OpaqueBlock, ir::Port, ir::Print> auto&) {
           return writeBlock(state_, list_, i);
         });
   }
@@ -138,7 +138,7 @@ private:
         },
         [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Move, ir::Measure, ir::CallCycle,
                            ir::ProbePower, ir::Comment, ir::Return, ir::Spindle, ir::Coolant, ir::SetMode,
-                           ir::Dwell, ir::OpaqueBlock> auto&) { return false; });
+                           ir::Dwell, ir::OpaqueBlock, ir::Port, ir::Print> auto&) { return false; });
   }
 
   template <class Target>

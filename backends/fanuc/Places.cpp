@@ -78,7 +78,8 @@ Facts behind(const ir::CycleStatement& statement, Facts facts) {
                                                [](const ir::Word& word) { return word.address == 'F'; });
       },
       [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::ProbePower, ir::Comment, ir::Assign, ir::Return,
-                         ir::Spindle, ir::Coolant, ir::Dwell, ir::Stop, ir::Alarm> auto&) {});
+                         ir::Spindle, ir::Coolant, ir::Dwell, ir::Stop, ir::Alarm, ir::Port,
+                         ir::Print> auto&) {});
   return facts;
 }
 

@@ -1,6 +1,7 @@
 #include "backends/fanuc/ProgramBlocks.h"
 
 #include "backends/common/PlainText.h"
+#include "backends/fanuc/PrintText.h"
 #include "ir/Flow.h"
 #include "support/messages/Fanuc.h"
 
@@ -351,22 +352,6 @@ std::string ProgramBlocks::message(const std::string& text) {
   return shown.empty() ? "" : "(" + shown + ")";
 }
 
-std::string ProgramBlocks::printed(const ir::Print& print) const {
-  std::string out = print.binary ? "BPRNT[" : "DPRNT[";
-  for (const ir::PrintPiece& piece : print.pieces) {
-    if (!piece.number) {
-      std::string text = piece.text;
-      std::replace(text.begin(), text.end(), ' ', '*');
-      out += text;
-    } else if (print.binary) {
-      out += fmt::format("#{}[{}]", *piece.number, piece.decimals);
-    } else {
-      out += fmt::format("#{}[{}{}]", *piece.number, piece.integerDigits, piece.decimals);
-    }
-  }
-  return out + "]";
-}
-
 std::string ProgramBlocks::macro(const ir::ProgramStatement& statement) {
   const std::uint32_t most = context_.to().bracketDepth;
   const stdlib::SystemVariables& variables = context_.to().variables;
@@ -387,8 +372,8 @@ std::string ProgramBlocks::macro(const ir::ProgramStatement& statement) {
                        most) +
                message(node.text);
       },
-      [](const ir::Port& node) { return std::string(node.open ? "POPEN" : "PCLOS"); },
-      [&](const ir::Print& node) { return printed(node); },
+      [](const ir::Port& node) { return portText(node); },
+      [](const ir::Print& node) { return printText(node); },
       [](const ir::NameVariables& node) {
         return fmt::format("SETVN {}[{}]", node.first, fmt::join(node.names, ","));
       },

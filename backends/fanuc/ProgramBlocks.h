@@ -46,7 +46,6 @@ private:
   // The text of a macro statement that may follow THEN; "": none.
   std::string macro(const ir::ProgramStatement& statement);
   std::string message(const std::string& text);
-  std::string printed(const ir::Print& print) const;
 
   std::string condition(const ir::ConditionPtr& condition);
   std::string bounded(std::string text, std::uint32_t most);

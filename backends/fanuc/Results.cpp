@@ -22,9 +22,8 @@ bool callsMacro(const State& state, const ir::CycleStatement& statement) {
       [](const ir::OneOf<ir::Measure, ir::CallCycle> auto&) { return true; },
       [&](const ir::OpaqueBlock& node) { return !isWait(node, state.control); },
       [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Comment, ir::Assign, ir::Return,
-                         ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop, ir::Alarm> auto&) {
-        return false;
-      });
+                         ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop, ir::Alarm, ir::Port,
+                         ir::Print> auto&) { return false; });
 }
 
 namespace {
@@ -103,7 +102,7 @@ private:
         [&](const ir::OpaqueBlock& node) { return isWait(node, control) ? Leaves::Them : Leaves::Unknown; },
         [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Move, ir::ProbePower, ir::Comment,
                            ir::Assign, ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop,
-                           ir::Alarm> auto&) { return Leaves::Them; });
+                           ir::Alarm, ir::Port, ir::Print> auto&) { return Leaves::Them; });
   }
 
   // What is reached from a statement, on no way through `without`.

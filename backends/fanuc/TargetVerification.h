@@ -101,7 +101,7 @@ private:
 
   const VerificationSource from_;
   const Translation& translation_;
-  const stdlib::Control& control_;
+  const stdlib::Control control_;
   const stdlib::MacroSet *sourceSet_, *set_;
   const bool macrosHaveText_; // those of `set_`, which run by it
   const Limits limits_ = limitsOfRun(from_.session.limits());

@@ -39,10 +39,17 @@ std::uint32_t programNumber(const std::string& text) {
   return at == std::string::npos ? 0 : static_cast<std::uint32_t>(std::atoi(text.c_str() + at + 2));
 }
 
+// How a control pads what it prints is a parameter of it, and no difference of the programs.
+stdlib::Control paddingAs(const stdlib::Control& source, stdlib::Control control) {
+  if (!control.printPadding) control.printPadding = source.printPadding;
+  return control;
+}
+
 } // namespace
 
 FanucVerification::FanucVerification(const VerificationSource& source)
-    : from_(source), translation_(*source.plan.translation), control_(*source.inputs.control),
+    : from_(source), translation_(*source.plan.translation),
+      control_(paddingAs(*source.inputs.sourceControl, *source.inputs.control)),
       sourceSet_(source.session.macroSet(source.plan.sourceMacros, &*source.inputs.sourceControl)),
       set_(source.session.macroSet(source.plan.targetMacros, &*source.inputs.control)),
       macrosHaveText_(set_ != nullptr && source.session.data().find("macrob", set_->name) != nullptr),

@@ -29,8 +29,8 @@ bool moves(const ir::CycleStatement& statement) {
       statement, [](const ir::CallCycle& call) { return call.moves; },
       [](const ir::OneOf<ir::Move, ir::Measure, ir::OpaqueBlock> auto&) { return true; },
       [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::ProbePower, ir::Comment, ir::Assign,
-                         ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop,
-                         ir::Alarm> auto&) { return false; });
+                         ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop, ir::Alarm,
+                         ir::Port, ir::Print> auto&) { return false; });
 }
 
 // Whether a length that is written counts from the next move or from the next G43 on, a parameter decides.

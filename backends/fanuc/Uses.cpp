@@ -55,8 +55,8 @@ Ids movesBy(const ir::CycleStatement& statement) {
           collect(out, word.value);
       },
       [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::ProbePower, ir::Comment, ir::Assign,
-                         ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop,
-                         ir::Alarm> auto&) {});
+                         ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop, ir::Alarm,
+                         ir::Port, ir::Print> auto&) {});
   return out;
 }
 
@@ -66,8 +66,8 @@ bool mayMove(const ir::CycleStatement& statement, const stdlib::Control& control
       [](const ir::CallCycle& node) { return node.moves; },
       [&](const ir::OpaqueBlock& node) { return !isWait(node, control); },
       [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::ProbePower, ir::Comment, ir::Assign,
-                         ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop,
-                         ir::Alarm> auto&) { return false; });
+                         ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop, ir::Alarm,
+                         ir::Port, ir::Print> auto&) { return false; });
 }
 
 // The statements of which nothing but an alarm comes, before anything moves.

@@ -110,7 +110,7 @@ private:
         [&](const ir::Comment& node) { state_.script.comment(node.text); }, [](const ir::Label&) {},
         [&](const ir::OneOf<ir::Jump, ir::Branch, ir::Store, ir::Move, ir::Measure, ir::CallCycle,
                             ir::ProbePower, ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell,
-                            ir::Stop, ir::OpaqueBlock> auto&) {
+                            ir::Stop, ir::OpaqueBlock, ir::Port, ir::Print> auto&) {
           state_.refuse<diag::FusionRunTime>(origin.range());
         });
   }

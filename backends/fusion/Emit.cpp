@@ -27,7 +27,7 @@ bool isStraight(const ir::Cycle& cycle) {
         statement, [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Assign> auto&) { return false; },
         [](const ir::OneOf<ir::Store, ir::Move, ir::Measure, ir::CallCycle, ir::ProbePower, ir::Comment,
                            ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop, ir::Alarm,
-                           ir::OpaqueBlock> auto&) { return true; });
+                           ir::OpaqueBlock, ir::Port, ir::Print> auto&) { return true; });
   });
 }
 

@@ -47,7 +47,7 @@ bool isMacro(const State& state, const ir::CycleStatement& statement) {
       [](const ir::OneOf<ir::Measure, ir::CallCycle> auto&) { return true; },
       [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Move, ir::Comment, ir::Assign,
                          ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop, ir::Alarm,
-                         ir::OpaqueBlock> auto&) { return false; });
+                         ir::OpaqueBlock, ir::Port, ir::Print> auto&) { return false; });
 }
 
 bool readsResult(const ir::CycleStatement& statement) {
@@ -105,6 +105,15 @@ bool MacroBlocks::block(const std::vector<const ir::CycleStatement*>& statements
             if (!length || &place == &at_[ir::indexOf(ir::Axis::Z)]) place.value = nullptr;
           setLast(nullptr);
         },
+        [&](const ir::Print& node) {
+          const stdlib::MacroSet* const source = state_.options.source;
+          for (const ir::PrintPiece& piece : node.pieces)
+            if (calls_ && piece.number && source != nullptr &&
+                std::any_of(source->overwritten.begin(), source->overwritten.end(), [&](const auto& range) {
+                  return range.first <= *piece.number && *piece.number <= range.second;
+                }))
+              state_.refuse<diag::FusionResultPrinted>(origin.range(), *piece.number, *piece.number);
+        },
         [&](const ir::SetMode& node) {
           if (node.mode == ir::Mode::WorkSystem) {
             for (Place& place : at_)
@@ -117,7 +126,7 @@ bool MacroBlocks::block(const std::vector<const ir::CycleStatement*>& statements
         [&](const ir::OneOf<ir::Label, ir::Store> auto&) { flow(*one); },
         [](const ir::OneOf<ir::Jump, ir::Branch, ir::Move, ir::Measure, ir::CallCycle, ir::ProbePower,
                            ir::Comment, ir::Assign, ir::Return, ir::Spindle, ir::Coolant, ir::Dwell, ir::Stop,
-                           ir::Alarm> auto&) {});
+                           ir::Alarm, ir::Port> auto&) {});
   }
   if (!rewritten) return false;
   Text codes;
@@ -157,9 +166,8 @@ bool MacroBlocks::block(const std::vector<const ir::CycleStatement*>& statements
         [&](const ir::Comment& node) { comment += " (" + node.text + ")"; },
         [](const ir::Label&) {}, // its number is before the lines
         [&](const ir::OneOf<ir::Jump, ir::Branch, ir::Assign, ir::Return, ir::Spindle, ir::Coolant,
-                            ir::SetMode, ir::Dwell, ir::Stop, ir::Alarm, ir::OpaqueBlock> auto&) {
-          other();
-        });
+                            ir::SetMode, ir::Dwell, ir::Stop, ir::Alarm, ir::OpaqueBlock, ir::Port,
+                            ir::Print> auto&) { other(); });
   }
   if (codes.expression() != "\"\"") lines.insert(lines.begin(), std::move(codes));
   if (!lines.empty()) lines.front().add(comment);
@@ -273,7 +281,7 @@ bool MacroBlocks::otherCode(const ir::CycleStatement& statement, Text& text) {
       },
       [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Move, ir::Measure, ir::CallCycle,
                          ir::ProbePower, ir::Comment, ir::Assign, ir::Return, ir::Dwell, ir::Stop, ir::Alarm,
-                         ir::OpaqueBlock> auto&) { return false; });
+                         ir::OpaqueBlock, ir::Port, ir::Print> auto&) { return false; });
 }
 
 bool MacroBlocks::modeCode(const ir::SetMode& mode, const ir::Origin& origin, Text& text) {

@@ -43,7 +43,7 @@ bool MacroBlocks::overwritesResults(const ir::CycleStatement& statement) const {
       },
       [](const ir::OneOf<ir::Measure, ir::CallCycle, ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Comment,
                          ir::Assign, ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop,
-                         ir::Alarm> auto&) { return false; });
+                         ir::Alarm, ir::Port, ir::Print> auto&) { return false; });
 }
 
 const std::vector<Lasts>& MacroBlocks::lasts() {
@@ -56,9 +56,8 @@ const std::vector<Lasts>& MacroBlocks::lasts() {
             body[at], [&](const ir::OneOf<ir::Measure, ir::CallCycle> auto&) -> Lasts { return {&body[at]}; },
             [&](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Move, ir::ProbePower,
                                 ir::Comment, ir::Assign, ir::Return, ir::Spindle, ir::Coolant, ir::SetMode,
-                                ir::Dwell, ir::Stop, ir::Alarm, ir::OpaqueBlock> auto&) -> Lasts {
-              return overwritesResults(body[at]) ? Lasts{nullptr} : before;
-            });
+                                ir::Dwell, ir::Stop, ir::Alarm, ir::OpaqueBlock, ir::Port, ir::Print> auto&)
+                -> Lasts { return overwritesResults(body[at]) ? Lasts{nullptr} : before; });
       },
       [](Lasts& into, const Lasts& other) {
         const std::size_t before = into.size();
@@ -85,7 +84,8 @@ bool MacroBlocks::leadsStraight(const std::vector<std::vector<std::size_t>>& nex
     if (at >= body.size()) return false;
     const ir::CycleStatement& one = body[at];
     const bool passes = ir::match(
-        one, [](const ir::OneOf<ir::Label, ir::Jump, ir::Comment> auto&) { return true; },
+        one,
+        [](const ir::OneOf<ir::Label, ir::Jump, ir::Comment, ir::Port, ir::Print> auto&) { return true; },
         [&](const ir::Store&) { return moved_.contains(&one); },
         [](const ir::OneOf<ir::Measure, ir::CallCycle, ir::Branch, ir::Move, ir::ProbePower, ir::Assign,
                            ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop, ir::Alarm,

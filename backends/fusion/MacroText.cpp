@@ -121,7 +121,7 @@ void MacroBlocks::flow(const ir::CycleStatement& statement) {
       },
       [](const ir::OneOf<ir::Jump, ir::Branch, ir::Move, ir::Measure, ir::CallCycle, ir::ProbePower,
                          ir::Comment, ir::Assign, ir::Return, ir::Spindle, ir::Coolant, ir::SetMode,
-                         ir::Dwell, ir::Stop, ir::Alarm, ir::OpaqueBlock> auto&) {});
+                         ir::Dwell, ir::Stop, ir::Alarm, ir::OpaqueBlock, ir::Port, ir::Print> auto&) {});
 }
 
 void MacroBlocks::forgetStored(Place& place, const ir::Store& store) {

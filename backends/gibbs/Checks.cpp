@@ -36,7 +36,8 @@ void writeStatement(const ir::Cycle& cycle, const ir::CycleStatement& statement,
       },
       [&](const ir::Return&) { text.add("goto " + pass, origin); },
       [&](const ir::OneOf<ir::Store, ir::Move, ir::Measure, ir::ProbePower, ir::Spindle, ir::Coolant,
-                          ir::SetMode, ir::Dwell, ir::Stop, ir::CallCycle, ir::OpaqueBlock> auto&) {
+                          ir::SetMode, ir::Dwell, ir::Stop, ir::CallCycle, ir::OpaqueBlock, ir::Port,
+                          ir::Print> auto&) {
         text.fail();
         text.diagnostics().report<diag::CamExpression>(origin.range(), "what the machine does");
       });

@@ -169,7 +169,7 @@ bool decidesAlarms(const std::vector<ir::CycleStatement>& list, std::size_t at, 
         [&](const ir::Branch&) { return looks(one) ? std::optional<bool>() : false; },
         [](const ir::OneOf<ir::Assign, ir::Store, ir::Jump, ir::Return, ir::Move, ir::Measure, ir::CallCycle,
                            ir::ProbePower, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop,
-                           ir::OpaqueBlock> auto&) { return std::optional(false); });
+                           ir::OpaqueBlock, ir::Port, ir::Print> auto&) { return std::optional(false); });
     if (ends) return *ends;
   }
   return false;

@@ -185,7 +185,7 @@ ir::Cycle drawn(const ir::Cycle& given, Names& names) {
                            ir::Stop> auto&) { return true; },
         [](const ir::CallCycle& node) { return !node.moves; },
         [](const ir::OneOf<ir::Assign, ir::Store, ir::Label, ir::Jump, ir::Branch, ir::Return, ir::Move,
-                           ir::Measure, ir::Alarm> auto&) { return false; },
+                           ir::Measure, ir::Alarm, ir::Port, ir::Print> auto&) { return false; },
         [](const ir::OpaqueBlock& node) { return waits(node); });
     if (silent) continue;
     if (std::holds_alternative<ir::Alarm>(statement.node)) statement.node = ir::Return{};
@@ -536,6 +536,9 @@ private:
         [&](const ir::CallCycle& node) { call(node, from); },
         [&](const ir::OpaqueBlock&) {
           refuse(from.range(), "a block whose meaning is not known", "take it out of the cycle");
+        },
+        [&](const ir::OneOf<ir::Port, ir::Print> auto&) {
+          refuse(from.range(), "what is printed through the port", "take it out of the cycle");
         },
         [](const ir::OneOf<ir::Comment, ir::ProbePower, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell,
                            ir::Stop, ir::Alarm, ir::Store> auto&) {});

@@ -86,7 +86,9 @@ private:
         },
         [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Move, ir::Measure, ir::CallCycle,
                            ir::ProbePower, ir::Comment, ir::Assign, ir::Return, ir::SetMode, ir::Dwell,
-                           ir::Stop, ir::Alarm, ir::OpaqueBlock> auto&) { return std::optional<Switch>(); });
+                           ir::Stop, ir::Alarm, ir::OpaqueBlock, ir::Port, ir::Print> auto&) {
+          return std::optional<Switch>();
+        });
   }
 
   // The switch at `index` of the body, before what the source has before it.
@@ -183,6 +185,10 @@ private:
         [&](const ir::OpaqueBlock& node) {
           s_.refuse<diag::OpaqueBlockRefused>(range, addresses(node), "the source's control",
                                               s_.control.title);
+        },
+        [&](const ir::OneOf<ir::Port, ir::Print> auto&) {
+          s_.refuse<diag::MikroprogCannot>(range, "what is printed through the port",
+                                           "the control has no function for it");
         },
         [&](const ir::Branch&) {
           s_.refuse<diag::FlowRefused>(range, "what only the running program knows");
@@ -487,7 +493,7 @@ bool movesY(const ir::Cycle& cycle) {
         [](const ir::Move& node) { return node.axes[kY].has_value(); },
         [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::ProbePower, ir::Comment,
                            ir::Assign, ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop,
-                           ir::Alarm, ir::OpaqueBlock> auto&) { return false; });
+                           ir::Alarm, ir::OpaqueBlock, ir::Port, ir::Print> auto&) { return false; });
   });
 }
 

@@ -73,7 +73,7 @@ bool leavesByItself(State& state, std::size_t index, ir::Axis axis, double to, d
         },
         [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Measure, ir::CallCycle, ir::ProbePower,
                            ir::Assign, ir::Return, ir::Spindle, ir::Coolant, ir::Dwell, ir::Stop, ir::Alarm,
-                           ir::OpaqueBlock> auto&) { return Goes::Away; });
+                           ir::OpaqueBlock, ir::Port, ir::Print> auto&) { return Goes::Away; });
     if (goes != Goes::On) return goes == Goes::Back;
   }
   return false;

@@ -44,7 +44,9 @@ bool Lowering::ended() const {
              *last, [](const ir::OneOf<ir::Alarm, ir::Jump, ir::Return> auto&) { return true; },
              [](const ir::OneOf<ir::Label, ir::Branch, ir::Store, ir::Comment, ir::Assign, ir::Move,
                                 ir::Measure, ir::ProbePower, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell,
-                                ir::Stop, ir::CallCycle, ir::OpaqueBlock> auto&) { return false; });
+                                ir::Stop, ir::CallCycle, ir::OpaqueBlock, ir::Port, ir::Print> auto&) {
+               return false;
+             });
 }
 
 void Lowering::jump(ir::LabelId label, SourceRange range) {

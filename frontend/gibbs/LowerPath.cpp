@@ -362,7 +362,7 @@ private:
           // What no path has, or what holds no field.
           [](const ir::OneOf<ir::Label, ir::Jump, ir::Store, ir::ProbePower, ir::Comment, ir::Return,
                              ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop, ir::Alarm,
-                             ir::CallCycle, ir::OpaqueBlock> auto&) {});
+                             ir::CallCycle, ir::OpaqueBlock, ir::Port, ir::Print> auto&) {});
     }
     std::vector<std::string> names;
     for (ir::VariableId id = 0; id < cycle_.variables.size(); ++id)

@@ -2,7 +2,7 @@
 // prints there.
 #pragma once
 
-#include "ir/Expression.h"
+#include "ir/Statement.h"
 #include "support/Picture.h"
 #include "support/Source.h"
 
@@ -107,6 +107,12 @@ struct Comment {
   SourceRange range;
 };
 
+// POPEN, PCLOS, DPRNT[..] or BPRNT[..], alone in its block.
+struct PortStatement {
+  std::variant<ir::Port, ir::Print> node;
+  SourceRange range;
+};
+
 struct Block {
   SourceRange range;
   bool blockDelete = false;
@@ -114,6 +120,7 @@ struct Block {
   std::vector<Word> words;
   std::vector<Assignment> assignments;
   std::optional<Statement> statement;
+  std::optional<PortStatement> port;
   std::vector<Comment> comments;
   bool programMark = false; // % alone
 };

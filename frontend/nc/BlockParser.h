@@ -31,7 +31,10 @@ private:
   bool word(Block& block);
   bool assignment(Block& block);
   bool wordValue(Word& word);
-  bool statement(Block& block); // at its word
+  bool statement(Block& block);                   // at its word
+  bool port(Block& block, std::string_view word); // at its word
+  bool printed(ir::Print& print, std::size_t begin);
+  bool printedVariable(ir::Print& print);
   bool take(std::string_view word);
   // The number of a block or a loop; reports one that is computed.
   bool statementNumber(std::string_view after, std::uint64_t& out);

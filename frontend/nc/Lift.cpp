@@ -67,6 +67,10 @@ bool Lifter::run() {
         label != context_.flow.targets.end())
       enter(label->second);
   if (block_.statement) return statement();
+  if (block_.port) {
+    std::visit([&](const auto& node) { add(node); }, block_.port->node);
+    return true;
+  }
   if (!block_.assignments.empty()) return assignments();
   for (const Comment& comment : block_.comments)
     add(ir::Comment{toUtf8(comment.text, context_.encoding)});

@@ -23,9 +23,13 @@ constexpr std::array<std::string_view, 11> kStatements = {"IF",    "GOTO",  "WHI
                                                           "POPEN", "PCLOS", "DPRNT", "BPRNT", "SETVN"};
 constexpr std::size_t kMostDigits = 8;
 
-// Statements of a port, and THEN without IF.
+// SETVN, and THEN without IF.
 bool isOther(std::string_view statement) {
-  return statement == "THEN" || statement.size() == 5 ? statement != "WHILE" : false;
+  return statement == "THEN" || statement == "SETVN";
+}
+
+bool isOfPort(std::string_view statement) {
+  return statement.size() == 5 && statement != "WHILE" && statement != "SETVN";
 }
 
 std::size_t lengthOf(const std::vector<Piece>& pieces) {
@@ -89,12 +93,13 @@ bool BlockParser::item(Block& block) {
   }
   const auto statement = std::find_if(kStatements.begin(), kStatements.end(),
                                       [&](std::string_view one) { return in_.startsWith(one); });
-  if (block.statement) {
+  if (block.statement || block.port) {
     diagnostics_.report<diag::MixedBlock>(here);
     return false;
   }
   if (statement != kStatements.end() && !isOther(*statement)) {
-    if (block.words.empty() && block.assignments.empty()) return this->statement(block);
+    if (block.words.empty() && block.assignments.empty())
+      return isOfPort(*statement) ? port(block, *statement) : this->statement(block);
     diagnostics_.report<diag::MixedBlock>(here);
     return false;
   }

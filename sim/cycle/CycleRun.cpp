@@ -167,6 +167,10 @@ bool CycleRun::step(const ir::CycleStatement& statement) {
       },
       [&](const ir::Alarm& node) { return machine_.raiseUnnumbered(node.message); },
       [&](const ir::CallCycle& node) { return call(node); },
+      // No front end makes one in a cycle that runs by itself.
+      [&](const ir::OneOf<ir::Port, ir::Print> auto&) {
+        return inconclusive("what is printed through the port cannot be run in a cycle");
+      },
       [&](const ir::OpaqueBlock&) {
         return inconclusive("what this block means is not known, so the cycle cannot be run");
       });

@@ -248,7 +248,7 @@ TEST_CASE("the macro set is the one that knows all programs of the branch") {
 TEST_CASE("defects of a block are found in the branch") {
   CHECK(lowered("r: 'G0 #1=5' EOL RETURN") == "refused: [mixed-block]");
   CHECK(lowered("r: 'O100' EOL RETURN") == "refused: [program-in-branch]");
-  CHECK(lowered("r: 'POPEN' EOL RETURN") == "refused: [macro-statement]");
+  CHECK(lowered("r: 'SETVN500[A]' EOL RETURN") == "refused: [macro-statement]");
   CHECK(lowered("r: 'G0 X1' OpFieldData#('a') EOL RETURN") == "refused: [digits-beside-value]");
   Lowering fits(kPictures + "r: 'G0 X' OpFieldData#('a') EOL RETURN");
   fits.fixed["a"] = 5000;

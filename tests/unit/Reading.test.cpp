@@ -298,9 +298,10 @@ TEST_CASE("reading: what is no input is one error that names the kinds, in every
   }
   const CommandResult run = dotekIn(folder, {"sim", "a.mac"});
   CHECK(run.status == 2);
-  CHECK(run.err == "dotek: error: `a.mac` is a GibbsCAM macro, and an NC program is expected here; if it is "
-                   "one after all, `--from nc` "
-                   "says so [wrong-kind]\n");
+  CHECK(run.err ==
+        "a.mac:1:1: error: `a.mac` is a GibbsCAM macro, and an NC program is expected here; if it is "
+        "one after all, `--from nc` "
+        "says so [wrong-kind]\n");
 }
 
 TEST_CASE("reading: a post where a program is expected is named with the commands that take it") {
