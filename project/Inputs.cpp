@@ -31,8 +31,8 @@ std::optional<std::string> beginningOf(const std::string& path, const Session& s
   return readBeginning(path, kRecognisedBytes, ignored);
 }
 
-// What concerns a file as a whole is reported at its beginning, so that reports for machines name the file; the
-// text is left out, as it may be a picture.
+// What concerns a file as a whole is reported at its beginning, so that reports for machines name the file;
+// the text is left out, as it may be a picture.
 SourceRange wholeFile(const std::string& path, Session& session) {
   return {session.sources().add(SourceFile(inputName(path), "", Encoding::Utf8)), 0, 0};
 }
