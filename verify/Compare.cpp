@@ -44,7 +44,7 @@ public:
     compareFaults(pair_);
     compareEarlyUses(pair_);
     if (!rules_.atMeasures) compareDeeds(pair_);
-    if (rules_.sameAlarmNumbers) compareSwitches(pair_);
+    compareSwitches(pair_, rules_.sameAlarmNumbers);
     takeAll(compareIdleMoves(source_, target_, rules_));
     takeAll(compareValues(source_, target_, rules_));
     if (!pair_.stopsInMacros() && !near(source_.end, target_.end, rules_.tolerance))

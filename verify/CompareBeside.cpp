@@ -231,17 +231,26 @@ void compareEarlyUses(const ComparedPair& pair) {
 }
 
 // What a macro that switches the probe does on its way is in no source: it is called under the same modes.
-void compareSwitches(const ComparedPair& pair) {
+// Whoever switches it, the spindle turns or rests there as in the source.
+void compareSwitches(const ComparedPair& pair, bool sameMacros) {
   const std::vector<SwitchCall>&a = pair.source.switches, &b = pair.target.switches;
-  for (std::size_t i = 0; i < std::min(a.size(), b.size()) && a[i].program == b[i].program; ++i) {
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
+    const bool sameCall = sameMacros && a[i].program == b[i].program;
+    if (!sameCall && a.size() != b.size()) return;
     const bool macro = a[i].program != 0;
-    for (std::size_t k = 0; macro && k < a[i].modes.size(); ++k)
+    for (std::size_t k = 0; sameCall && macro && k < a[i].modes.size(); ++k)
       if (a[i].modes[k] != b[i].modes[k] && a[i].modes[k] != 0 && b[i].modes[k] != 0)
         return pair.add(Aspect::Modal,
                         fmt::format("P{} called under G{} against G{}", a[i].program,
                                     numberText(a[i].modes[k] / 10.0), numberText(b[i].modes[k] / 10.0)),
                         a[i].range, b[i].range);
-    compareState(pair, a[i].with, b[i].with, " where the probe is switched", a[i].range, b[i].range);
+    Surroundings target = b[i].with;
+    if (!sameCall) {
+      const std::uint8_t spindle = target.spindle;
+      target = a[i].with;
+      target.spindle = spindle;
+    }
+    compareState(pair, a[i].with, target, " where the probe is switched", a[i].range, b[i].range);
   }
 }
 

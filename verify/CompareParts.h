@@ -54,6 +54,6 @@ void compareState(const ComparedPair& pair, const Surroundings& a, const Surroun
 void compareDeeds(const ComparedPair& pair);
 void compareFaults(const ComparedPair& pair);
 void compareEarlyUses(const ComparedPair& pair);
-void compareSwitches(const ComparedPair& pair);
+void compareSwitches(const ComparedPair& pair, bool sameMacros);
 
 } // namespace dotek::verify

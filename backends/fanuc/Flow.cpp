@@ -1,4 +1,5 @@
 // The statements of a list: assignments, jumps, alarms; blocks are left to Blocks.cpp.
+#include "backends/common/Waits.h"
 #include "backends/fanuc/OwnCycles.h"
 #include "backends/fanuc/State.h"
 #include "backends/fanuc/Uses.h"
@@ -41,6 +42,7 @@ private:
     const ir::Origin& origin = statement.origin;
     if (state_.body != nullptr && body_) state_.at = i;
     state_.toAsk = toAsk(i);
+    if (body_) settle(i);
     if (const auto* node = std::get_if<ir::Assign>(&statement.node))
       demand(state_, variablesOf(node->value), origin);
     return match(
@@ -83,6 +85,51 @@ private:
                             ir::SetMode, ir::Dwell, ir::Stop, ir::OpaqueBlock, ir::Port, ir::Print> auto&) {
           return writeBlock(state_, list_, i);
         });
+  }
+
+  // The source's control reads nothing ahead of G31, and the target's does: a skip position that is read in
+  // the next block would be that of an earlier one.
+  void settle(std::size_t i) {
+    const ir::CycleStatement& statement = list_[i];
+    const bool moves = match(
+        statement, [&](const ir::OpaqueBlock& node) { return !isWait(node, state_.control); },
+        [](const ir::OneOf<ir::Move, ir::Measure, ir::CallCycle, ir::ProbePower, ir::Label> auto&) {
+          return true;
+        },
+        [](const ir::OneOf<ir::Assign, ir::Store, ir::Jump, ir::Branch, ir::Return, ir::Alarm, ir::Comment,
+                           ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop, ir::Port,
+                           ir::Print> auto&) { return false; });
+    if (moves) settled_ = false;
+    if (std::holds_alternative<ir::OpaqueBlock>(statement.node) && !moves) settled_ = true;
+    // What follows an IF may be written into its line.
+    const bool reads = readsSkip(statement) || (std::holds_alternative<ir::Branch>(statement.node) &&
+                                                i + 1 < list_.size() && readsSkip(list_[i + 1]));
+    if (settled_ || !reads || !stopsAtSkip(state_.options.sourceControl) || stopsAtSkip(state_.control))
+      return;
+    ir::Origin origin = statement.origin;
+    origin.reason = "waits until the skip move has ended";
+    writeWait(state_, origin);
+    settled_ = true;
+  }
+
+  static bool stopsAtSkip(const stdlib::Control& control) {
+    return std::any_of(control.readAheadStops.begin(), control.readAheadStops.end(), [&](const auto& stop) {
+      const auto* code = control.find(stop.first, stop.second);
+      return code != nullptr && code->function == stdlib::Function::Skip;
+    });
+  }
+
+  bool readsSkip(const ir::CycleStatement& statement) const {
+    constexpr double kAxes = 6;
+    const auto first = state_.control.variables.skip;
+    bool found = false;
+    if (first)
+      ir::eachNode(statement, [&](const ir::Expression& node) {
+        const auto* variable = std::get_if<ir::MachineVariable>(&node.node);
+        const double* number = variable == nullptr ? nullptr : ir::constantValue(variable->number);
+        found = found || (number != nullptr && *number >= *first && *number < *first + kAxes);
+      });
+    return found;
   }
 
   std::set<ir::VariableId> toAsk(std::size_t i) const {
@@ -185,8 +232,10 @@ private:
     // Whatever set the program calls, the machine's own macros measure with it the next time.
     if (const auto& package = state_.control.package;
         package && variable >= package->calibrationFirst && variable <= package->calibrationLast &&
-        state_.control.name != state_.options.sourceControl.name && state_.macros.name != package->set)
-      state_.diagnostics.report<diag::StoreCalibrationUncalled>(origin.range(), variable, package->title);
+        state_.control.name != state_.options.sourceControl.name) {
+      state_.refuse<diag::StoreCalibration>(origin.range(), variable, package->title);
+      return std::nullopt;
+    }
     for (const auto& [first, last] : state_.macros.scratch) {
       if (variable < first || variable > last) continue;
       if (!state_.macros.keepsCalibration(variable)) {
@@ -250,6 +299,7 @@ private:
   State& state_;
   const std::vector<ir::CycleStatement>& list_;
   bool body_;
+  bool settled_ = false; // nothing has moved since the control waited
   Mark end_;
   std::map<ir::LabelId, Mark> marks_;
 };

@@ -1,4 +1,5 @@
 // Writing a work offset ourselves, where the macro's own rule is another one than the source's.
+#include "backends/common/NamedSystems.h"
 #include "backends/fanuc/OwnCycles.h"
 #include "backends/fanuc/State.h"
 #include "backends/fanuc/Uses.h"
@@ -16,19 +17,6 @@
 #include <vector>
 
 namespace dotek::backends::fanuc {
-
-ir::Environment withLocals(const ir::Cycle& cycle, ir::Environment environment) {
-  std::map<ir::VariableId, int> assigned;
-  for (const auto* list : {&cycle.checks, &cycle.body})
-    for (const ir::CycleStatement& statement : *list)
-      if (const auto* assign = std::get_if<ir::Assign>(&statement.node)) ++assigned[assign->variable];
-  for (const ir::CycleStatement& statement : cycle.checks) {
-    const auto* assign = std::get_if<ir::Assign>(&statement.node);
-    if (assign != nullptr && assigned[assign->variable] == 1)
-      environment[assign->variable] = ir::evaluate(*assign->value, environment);
-  }
-  return environment;
-}
 
 namespace {
 
@@ -66,31 +54,10 @@ ir::ResultName positionOf(ir::Axis axis) {
   return kNames[ir::indexOf(axis)];
 }
 
-bool names(double number, const ExtendedSystems& extended) {
-  constexpr double kSame = 1e-6;
-  if (number >= kFirstSystem && number <= kLastSystem) return number == std::trunc(number);
-  if (extended.first == 0 || number < extended.first - kSame || number > extended.last + kSame) return false;
-  const double steps = (number - extended.first) / extended.step;
-  return std::abs(steps - std::round(steps)) <= kSame / extended.step;
-}
-
-// Other values of the arguments: the defaults, and some that differ.
-std::vector<ir::Environment> environments(const State& state) {
-  std::vector<ir::Environment> out;
-  for (const double shift : {0.0, 1000.0, -1000.0}) {
-    ir::Environment environment(state.cycle.variables.size());
-    for (std::size_t i = 0; i < environment.size(); ++i)
-      if (state.cycle.variables[i].role != ir::Role::Local)
-        environment[i] = ir::Scalar::of(state.cycle.variables[i].defaultValue.value_or(0) + shift);
-    out.push_back(std::move(environment));
-  }
-  return out;
-}
-
 // Whether the checks reject all that is no system. Tried, not proved: an alarm too many does no harm.
 bool checksConfine(const State& state, ir::VariableId id) {
   bool tried = false;
-  for (ir::Environment& environment : environments(state)) {
+  for (ir::Environment& environment : environmentsOf(state.cycle)) {
     // Where they reject a system, too, they say nothing of what is none.
     environment[id] = ir::Scalar::of(kFirstSystem);
     if (ir::runChecks(state.cycle, environment, kMaxSteps).end == ir::CheckRun::End::Alarm) continue;
@@ -103,55 +70,6 @@ bool checksConfine(const State& state, ir::VariableId id) {
   return tried;
 }
 
-// The variables that a caller gives, from which the checks compute `value`.
-std::set<ir::VariableId> givenFor(const ir::Cycle& cycle, const ir::ExpressionPtr& value) {
-  std::set<ir::VariableId> out, seen;
-  std::vector<ir::ExpressionPtr> open = {value};
-  while (!open.empty()) {
-    const ir::ExpressionPtr now = open.back();
-    open.pop_back();
-    for (const ir::VariableId id : variablesOf(now)) {
-      if (!seen.insert(id).second) continue;
-      if (cycle.variable(id).role != ir::Role::Local) out.insert(id);
-      for (const ir::CycleStatement& statement : cycle.checks)
-        if (const auto* assign = std::get_if<ir::Assign>(&statement.node);
-            assign != nullptr && assign->variable == id)
-          open.push_back(assign->value);
-    }
-  }
-  return out;
-}
-
-struct NoSystem {
-  double given = 0; // the variable's value
-  double number = 0;
-};
-
-// The first value of `id` that the checks let pass, where they let only such pass as `system` makes no work
-// system of: then whoever calls the program gets an alarm. Values that end like the largest or the smallest
-// are those that the checks of `id` reject, whatever the other arguments are.
-std::optional<NoSystem> passesNoSystem(const State& state, ir::VariableId id, const NamedSystem& system) {
-  constexpr double kNone = 99999;
-  for (ir::Environment& environment : environments(state)) {
-    const auto alarm = [&](double value) {
-      environment[id] = ir::Scalar::of(value);
-      const ir::CheckRun run = ir::runChecks(state.cycle, environment, kMaxSteps);
-      return run.end == ir::CheckRun::End::Alarm ? run.at : nullptr;
-    };
-    const ir::CycleStatement *const above = alarm(kNone), *const below = alarm(-kNone);
-    if (above == nullptr || below == nullptr) continue;
-    std::optional<NoSystem> first;
-    for (int value = 0; value <= kMostTried; ++value) {
-      if (const auto* const end = alarm(value); end == above || end == below) continue;
-      const ir::Scalar named = ir::evaluate(*system.number, withLocals(state.cycle, environment));
-      if (!named.known() || names(named.value, system.extended)) return std::nullopt;
-      if (!first) first = {static_cast<double>(value), named.value};
-    }
-    if (first) return first;
-  }
-  return std::nullopt;
-}
-
 } // namespace
 
 bool confinedTo(const State& state, const ir::ExpressionPtr& value, double least, double most) {
@@ -161,7 +79,7 @@ bool confinedTo(const State& state, const ir::ExpressionPtr& value, double least
   for (int one = -1; one <= kMostTried; ++one)
     tried.push_back(one);
   bool passes = false;
-  for (ir::Environment& environment : environments(state))
+  for (ir::Environment& environment : environmentsOf(state.cycle))
     for (const double one : tried) {
       environment[*given.begin()] = ir::Scalar::of(one);
       if (ir::runChecks(state.cycle, environment, kMaxSteps).end == ir::CheckRun::End::Alarm) continue;
@@ -364,7 +282,7 @@ void guardSystem(State& state, const ir::ExpressionPtr& given, const ir::Origin&
                  const ExtendedSystems& extended) {
   const ir::ExpressionPtr system = tidy(given);
   if (const double* value = ir::constantValue(system)) {
-    if (!names(*value, extended))
+    if (!namesSystem(*value, extended))
       state.refuse<diag::SystemRange>(system->range.hasPlace() ? system->range : origin.range(), *value);
     return;
   }
@@ -421,7 +339,7 @@ void writeSystemAlarm(State& state, const NamedSystem& which, const ir::Origin& 
          origin);
   }
   for (const ir::VariableId id : givenFor(state.cycle, named))
-    if (const auto passes = passesNoSystem(state, id, which)) {
+    if (const auto passes = passesNoSystem(state.cycle, id, which.number, which.extended)) {
       state.refuse<diag::SystemNeverNamed>(origin.range(), state.cycle.variable(id).name,
                                            numberText(passes->given), numberText(passes->number));
       return;

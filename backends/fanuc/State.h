@@ -1,6 +1,7 @@
 // What the parts of the back end share while they write one program.
 #pragma once
 
+#include "backends/common/NamedSystems.h"
 #include "backends/fanuc/Emit.h"
 #include "backends/fanuc/Sheet.h"
 #include "ir/Evaluate.h"
@@ -72,10 +73,7 @@ struct CopiedModes {
   std::vector<std::string> inForce;
 };
 
-// Numbers beside 54 to 59 that name a work system in a call, a step apart; 0: none do.
-struct ExtendedSystems {
-  double first = 0, last = 0, step = 1;
-};
+// A work system of a call, and the numbers beside 54 to 59 that name one there.
 struct NamedSystem {
   ir::ExpressionPtr number;
   ExtendedSystems extended;
@@ -286,8 +284,6 @@ ir::ExpressionPtr systemForCall(State& state, const ir::ExpressionPtr& system,
                                 const stdlib::MacroSignature& signature, const ir::Origin& origin);
 // Makes sure that there is such a tool offset. false: refused.
 bool guardTool(State& state, const ir::ExpressionPtr& tool, const ir::Origin& origin);
-// `environment` with what locals have that the checks alone assign, and once.
-ir::Environment withLocals(const ir::Cycle& cycle, ir::Environment environment);
 // Whether the checks of the one argument that `value` counts from let whole values of `least` to `most` pass
 // and, of others that are tried, none.
 bool confinedTo(const State& state, const ir::ExpressionPtr& value, double least, double most);

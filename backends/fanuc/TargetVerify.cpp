@@ -239,8 +239,13 @@ verify::CompareRules FanucVerification::rulesFor(const TargetCase& now, const ve
   // Of eight digits the last one is a ten millionth at most; two of them.
   rules.relative = rules.results > from_.options.tolerance ? 2e-7 : 0;
   rules.mayRestoreModes = true;
-  const stdlib::SystemVariables& v = control_.variables;
-  rules.toolParts = from_.plan.cycleFile && v.toolGeometry && v.toolWear;
+  const auto hasParts = [](const stdlib::Control& control) {
+    return control.variables.toolGeometry && control.variables.toolWear;
+  };
+  // Which part a call with T changes is the business of its macro.
+  const bool sameCalls = sourceSet_ == nullptr || sameMacros(sourceSet_, set_);
+  rules.toolParts =
+      hasParts(control_) && (from_.plan.cycleFile || (sameCalls && hasParts(*from_.inputs.sourceControl)));
   rules.switchesProbe = from_.options.switchProbe;
   rules.samePlace = [this, &now](SourceRange one, SourceRange other) {
     return translation_.stemsFrom(now.sourceOf(one), text_.line(other), from_.session.sources());

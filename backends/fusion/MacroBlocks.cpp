@@ -1,6 +1,7 @@
 // Blocks of another macro set than the source's: from what they mean, by the signatures of the set.
 #include "backends/common/CycleTouches.h"
 #include "backends/common/MacroCall.h"
+#include "backends/common/NamedSystems.h"
 #include "backends/fusion/State.h"
 #include "ir/Evaluate.h"
 #include "ir/Flow.h"
@@ -100,7 +101,7 @@ bool MacroBlocks::block(const std::vector<const ir::CycleStatement*>& statements
             });
           };
           if (isOnly("NT", -1)) return;
-          const bool length = isOnly("NH", 43) || isOnly("N", 49);
+          const bool length = isOnly("NHZ", 43) || isOnly("NHZ", 44) || isOnly("N", 49);
           for (Place& place : at_)
             if (!length || &place == &at_[ir::indexOf(ir::Axis::Z)]) place.value = nullptr;
           setLast(nullptr);
@@ -519,6 +520,12 @@ void MacroBlocks::guardSystem(const ir::ExpressionPtr& system, const ir::Origin&
       state_.refuse<diag::SystemRange>(origin.range(), *known);
     return;
   }
+  for (const ir::VariableId id : givenFor(state_.cycle, system))
+    if (const auto passes = passesNoSystem(state_.cycle, id, system, {})) {
+      state_.refuse<diag::SystemNeverNamed>(origin.range(), state_.cycle.variable(id).name,
+                                            numberText(passes->given), numberText(passes->number));
+      return;
+    }
   const std::string text = valueText(state_, system, origin.range(), true);
   state_.errorIf(text + " < 54 || " + text + " > 59 || " + text + " % 1 !== 0",
                  "the work offset is not 54 to 59", origin);

@@ -134,6 +134,13 @@ private:
 
   // ---- what it owes the post (docs/fusion.md)
 
+  // Whether the post writes this comment with a block number before it.
+  static bool isNumbered(const TargetCase& now, const std::string& comment) {
+    return std::any_of(now.lines.begin(), now.lines.end(), [&](const auto& line) {
+      return hasNumber(line.text) && line.text.size() > comment.size() && line.text.ends_with(comment);
+    });
+  }
+
   void compareFrame(const TargetCase& now, const fusion::RunResult& result, TargetRun& out) const {
     if (!result.taken)
       out.differs(verify::Aspect::Ending,
@@ -151,9 +158,10 @@ private:
       return hasNumber(line.text) || isComment(line.text);
     });
     for (std::size_t i = 0; i < written.lines.size(); ++i) {
-      // A block that a jump leads to brings its own.
-      const bool wanted = !hasNumber(written.lines[i]) &&
-                          (each ? hasNumber(now.lines[i].text) : all && !isComment(written.lines[i]));
+      // A block that a jump leads to brings its own. A comment is numbered where the post numbers that one.
+      const bool numbered = each ? hasNumber(now.lines[i].text)
+                                 : all && (!isComment(written.lines[i]) || isNumbered(now, written.lines[i]));
+      const bool wanted = !hasNumber(written.lines[i]) && numbered;
       if (written.numbered[i] == wanted || (!each && !all)) continue;
       out.differs(verify::Aspect::Printed,
                   wanted ? "a block that the post numbers is written without its number (writeBlock)"
