@@ -189,7 +189,7 @@ std::string PostRunner::setup(bool inch, const std::map<std::string, std::string
   JsonObject values;
   for (const stdlib::FusionNames::Family& family : names.families)
     for (std::size_t i = 0; i < family.names.size(); ++i)
-      values.add(family.names[i], std::to_string(i));
+      values.add(family.names[i], std::to_string(family.values[i]));
   JsonObject settings;
   for (const auto& [name, value] : settingsOf(session_.data()))
     settings.add(name, jsonNumber(value));

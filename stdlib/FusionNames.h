@@ -3,6 +3,8 @@
 
 #include "stdlib/DataFiles.h"
 
+#include <cstdint>
+#include <map>
 #include <set>
 #include <string>
 #include <string_view>
@@ -13,12 +15,14 @@ namespace dotek::stdlib {
 struct FusionNames {
   struct Family {
     std::string name;
-    std::vector<std::string> names; // constants; Dotek's value of each is its place
+    std::vector<std::string> names;    // constants
+    std::vector<std::uint32_t> values; // of each
   };
 
   std::set<std::string, std::less<>> entries, hooks, functions, variables, classes, javascript, valued;
   std::vector<Family> families;
-  std::set<std::string, std::less<>> all; // all of these
+  std::map<std::string, std::string, std::less<>> absent; // names that the kernel does not carry out, and why
+  std::set<std::string, std::less<>> all;                 // all of these
 
   static FusionNames load(const DataFiles& files);
 };
