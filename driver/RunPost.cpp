@@ -163,7 +163,7 @@ private:
       session_.diagnostics().report<diag::PostMatrixKind>({}, options_.matrix, kinds);
       return std::nullopt;
     }
-    std::size_t width = 0, printed = 0, refused = 0, failed = 0;
+    std::size_t width = 0, printed = 0, empty = 0, refused = 0, failed = 0;
     for (const posts::MatrixJob& job : jobs)
       width = std::max(width, job.cycle.size());
     std::string out;
@@ -179,15 +179,16 @@ private:
                            fault.stack.empty() ? "" : fmt::format(" (line {})", fault.stack.front().line));
         continue;
       }
-      ++printed;
       const std::vector<std::string> blocks = blocksOf(result);
+      ++(blocks.empty() ? empty : printed);
       out += fmt::format("{} block{}\n", blocks.size(), blocks.size() == 1 ? "" : "s");
       for (const std::string& block : blocks)
         out += "    " + printable(block) + "\n";
     }
-    out += fmt::format("{} of {} cycles are printed, {} refused, {} fail\n", printed, jobs.size(), refused,
+    out += fmt::format("{} of {} cycles are printed, {} refused, {} fail", printed, jobs.size(), refused,
                        failed);
-    failed_ = failed_ || failed > 0;
+    out += empty == 0 ? "\n" : fmt::format(", {} print nothing\n", empty);
+    failed_ = failed_ || failed > 0 || empty > 0;
     return out;
   }
 

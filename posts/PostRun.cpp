@@ -107,7 +107,8 @@ std::string circumstances(const PostFault& fault) {
   if (!fault.section.empty())
     add("in section " + fault.section + (fault.operation.empty() ? "" : " `" + fault.operation + "`"));
   if (!fault.cycle.empty()) add("cycle `" + fault.cycle + "`");
-  if (!fault.stack.empty() && !fault.stack.back().function.empty()) add("in " + fault.stack.back().function);
+  if (!fault.stack.empty() && !fault.stack.back().function.empty() && fault.stack.back().function != "global")
+    add("in " + fault.stack.back().function);
   return out.empty() ? "" : " (" + out + ")";
 }
 

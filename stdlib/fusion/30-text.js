@@ -10,6 +10,19 @@ Stop.prototype.toString = function () { // read where a post stops as it is load
   return "dotek-stop " + this.dotekStop + " " + this.text;
 };
 
+// A post may catch what ends it: the run fails by the first one all the same.
+var loading = false;
+var loadFault;
+function endRun(stop) {
+  if (loading) {
+    loadFault = loadFault || stop;
+  }
+  stop.section = loading ? undefined : state.section;
+  stop.cycle = loading ? undefined : global.cycleType;
+  state.stopped = state.stopped || stop;
+  return stop;
+}
+
 function placesOfStack(stack) {
   var out = [];
   String(stack).split("\n").forEach(function (line) {
@@ -23,46 +36,70 @@ function placesOfStack(stack) {
 
 function begin(job) {
   state = {job: job, text: [], size: 0, most: job.most || 1000000, places: [], line: "", redirected: [], files: {},
-    separator: " ", eol: "\n", errors: [], warnings: [], log: [], told: {}, notes: {}, handlers: [],
+    separator: " ", eol: "\n", warnings: [], log: [], told: {}, notes: {}, handlers: [],
     position: undefined, direction: undefined, rotation: undefined, translation: undefined, section: undefined,
     record: undefined, parameters: {}, cyclePoint: 0, cyclePoints: [], expanding: false, skip: false, motion: undefined,
-    synchronized: false};
+    synchronized: false, buffered: {}};
 }
 
-// Where the text of the NC program goes: each of its lines knows who wrote its last piece.
-function put(text, places) {
-  state.size += text.length;
-  if (state.size > state.most) {
-    throw new Stop("output", "");
-  }
-  state.text.push(text);
-  if (!state.job.map) {
-    return;
-  }
-  var parts = (state.line + text).split("\n");
+// Lines of a buffer and who wrote them, by their text: who writes the buffer out is not their author.
+function remember(line, places) {
+  var key = "line " + line;
+  (state.buffered[key] = state.buffered[key] || []).push(places);
+}
+function authorOf(line, places) {
+  var of = state.buffered["line " + line];
+  return of === undefined ? places : of.length > 1 ? of.shift() : of[0];
+}
+
+// Each line knows who wrote its last piece.
+function put(to, text, places, whole) {
+  var parts = (to.line + text).split("\n");
   for (var i = 0; i + 1 < parts.length; ++i) {
-    state.places.push(places);
+    var of = whole ? authorOf(parts[i], places) : places;
+    if (to.places !== undefined) {
+      to.places.push(of);
+    } else {
+      remember(parts[i], of);
+    }
   }
-  state.line = parts[parts.length - 1];
+  to.line = parts[parts.length - 1];
+  to.last = whole ? authorOf(to.line, places) : places;
 }
 
-function write(text) {
+// `whole`: what the post wrote, not words that are joined here, may be lines of a buffer.
+function write(text, whole) {
   var piece = String(text);
+  state.size += piece.length;
+  if (state.size > state.most) {
+    throw endRun(new Stop("output", ""));
+  }
   var places = state.job.map ? placesOfStack(new Error("").stack) : undefined;
   var to = state.redirected[state.redirected.length - 1];
   if (to !== undefined) {
-    state.size += piece.length;
-    if (state.size > state.most) {
-      throw new Stop("output", "");
-    }
     to.text += piece;
-    return;
+  } else {
+    state.text.push(piece);
   }
-  put(piece, places);
+  if (state.job.map) {
+    put(to || state, piece, places, whole !== false);
+  }
 }
 
-function writeln(text) {
-  write((text === undefined ? "" : String(text)) + state.eol);
+function writeln(text, whole) {
+  write((text === undefined ? "" : String(text)) + state.eol, whole);
+}
+
+// What is in a buffer; its last line may have no end yet.
+function bufferText() {
+  var last = state.redirected[state.redirected.length - 1];
+  if (last === undefined) {
+    return "";
+  }
+  if (state.job.map && last.line !== "") {
+    remember(last.line, last.last);
+  }
+  return last.text;
 }
 
 // Words of arrays and of `arguments` too; what is empty is left out.
@@ -87,13 +124,13 @@ function formatWords() {
 function writeWords() {
   var text = wordsOf(arguments, []).join(state.separator);
   if (text !== "") {
-    writeln(text);
+    writeln(text, false);
   }
 }
 function writeWords2(first) {
   var rest = wordsOf(Array.prototype.slice.call(arguments, 1), []);
   if (rest.length > 0) {
-    writeln(wordsOf([first], []).concat(rest).join(state.separator));
+    writeln(wordsOf([first], []).concat(rest).join(state.separator), false);
   }
 }
 
@@ -106,13 +143,9 @@ function subst(text) {
 }
 
 function error(text) {
-  state.errors.push(String(text));
-  var stop = new Stop("error", String(text));
+  var stop = endRun(new Stop("error", String(text)));
   if (settings["error-stops"]) {
     throw stop;
-  }
-  if (state.firstError === undefined) {
-    state.firstError = stop;
   }
 }
 
@@ -121,7 +154,7 @@ function warning(text) {
 }
 
 function redirectTo(name) {
-  state.redirected.push({name: name, text: ""});
+  state.redirected.push({name: name, text: "", line: ""});
 }
 function closeRedirection() {
   var last = state.redirected.pop();
@@ -173,17 +206,17 @@ give({
   redirectToFile: function (name) { redirectTo(String(name)); },
   getRedirectionBuffer: function (clear) {
     var last = state.redirected[state.redirected.length - 1];
-    var text = last === undefined ? "" : last.text;
+    var text = bufferText();
     if (last !== undefined && clear !== false) {
-      last.text = "";
+      last.text = last.line = "";
     }
     return text;
   },
   getRedirectionBuffer2: function (clear) {
     var last = state.redirected[state.redirected.length - 1];
-    var text = last === undefined ? "" : last.text;
+    var text = bufferText();
     if (last !== undefined && clear) {
-      last.text = "";
+      last.text = last.line = "";
     }
     return text;
   },

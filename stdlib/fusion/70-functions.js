@@ -154,7 +154,7 @@ function expandCyclePoint(x, y, z) {
   var type = global.cycleType;
   var cycle = global.cycle;
   if (/^probing|^inspect/.test(type)) {
-    throw new Stop("expand", "the post leaves `" + type + "` to the engine, whose moves no source states");
+    throw endRun(new Stop("expand", "the post leaves `" + type + "` to the engine, whose moves no source states"));
   }
   var clearance = numberOf(cycle.clearance, "cycle.clearance");
   var retract = numberOf(cycle.retract === undefined ? cycle.clearance : cycle.retract, "cycle.retract");
@@ -219,7 +219,7 @@ function expandCyclePoint(x, y, z) {
   default:
     if (type !== "drilling" && type !== "counter-boring" && type !== "break-through-drilling" &&
         type !== "gun-drilling") {
-      throw new Stop("expand", "the post leaves `" + type + "` to the engine, whose moves no source states");
+      throw endRun(new Stop("expand", "the post leaves `" + type + "` to the engine, whose moves no source states"));
     }
     feedTo(bottom);
     dwell();

@@ -194,10 +194,11 @@ function runJob(job) {
 
 function faultOf(thrown) {
   if (thrown instanceof Stop) {
-    return {kind: thrown.dotekStop, text: thrown.text, stack: thrown.stack};
+    return {kind: thrown.dotekStop, text: thrown.text, stack: thrown.stack, section: thrown.section, cycle: thrown.cycle};
   }
   var is = thrown !== null && typeof thrown === "object" && thrown.message !== undefined;
-  return {kind: "thrown", text: is ? String(thrown) : "it throws " + String(thrown), stack: is ? thrown.stack : ""};
+  return {kind: "thrown", text: is ? String(thrown) : "it throws " + String(thrown),
+    stack: is ? thrown.stack : "", section: state.section, cycle: global.cycleType};
 }
 
 function at(places) {
@@ -207,6 +208,7 @@ function at(places) {
 // The list: of each text the first letter says what it is. N: the program; M: a line of the map; F: a file; W: a
 // warning; L: the log; E: what ended the run, with places and circumstances; P: a property.
 function run(job) {
+  loading = false;
   begin(job);
   if (job.list === "properties") {
     return propertiesOf();
@@ -218,19 +220,21 @@ function run(job) {
   } catch (thrown) {
     fault = faultOf(thrown);
   }
-  if (fault === undefined && state.firstError !== undefined) {
-    fault = faultOf(state.firstError);
+  if (loadFault !== undefined || state.stopped !== undefined) {
+    fault = faultOf(loadFault || state.stopped);
   }
-  out.push("N" + state.text.join(""));
-  state.places.forEach(function (places) { out.push("M" + at(places || [])); });
+  if (fault === undefined) { // of one that fails there is no program
+    out.push("N" + state.text.join(""));
+    state.places.forEach(function (places) { out.push("M" + at(places || [])); });
+  }
   Object.keys(state.files).forEach(function (name) { out.push("F" + name + "\n" + state.files[name]); });
   state.warnings.forEach(function (one) { out.push("W" + one.text.replace(/\n/g, " ") + "\n" + at(one.places)); });
   state.log.forEach(function (text) { out.push("L" + text); });
   if (fault !== undefined) {
-    var section = state.section === undefined ? "" : String(state.section.dotekId + 1);
-    var name = state.section === undefined ? "" : String(state.section.getParameter("operation-comment", ""));
-    out.push("E" + [fault.kind, fault.text.replace(/\n/g, " "), section, name,
-      global.cycleType === undefined ? "" : global.cycleType].join("\n") + "\n" + at(placesOfStack(fault.stack)));
+    var of = fault.section;
+    out.push("E" + [fault.kind, fault.text.replace(/\n/g, " "), of === undefined ? "" : String(of.dotekId + 1),
+      of === undefined ? "" : String(of.getParameter("operation-comment", "")),
+      fault.cycle === undefined ? "" : fault.cycle].join("\n") + "\n" + at(placesOfStack(fault.stack)));
   }
   return out;
 }
@@ -293,6 +297,7 @@ global.dotekPrepare = function (setup) {
     }
   });
   begin({});
+  loading = true;
   state.includes = setup.includes || {};
   state.sections = [];
   give({unit: setup.inch ? values.IN : values.MM, revision: settings.revision, version: "Dotek", properties: {},

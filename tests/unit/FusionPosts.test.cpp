@@ -1,5 +1,6 @@
 // Posts of Fusion that run: the kernel against a second one, and what stops a post.
 #include "driver/RunPost.h"
+#include "support/Worker.h"
 #include "support/messages/Verify.h"
 #include "tests/GoldenRunner.h"
 #include "tests/Process.h"
@@ -76,4 +77,20 @@ TEST_CASE("fusion posts: an include that includes itself is named, and one that 
   CHECK_MESSAGE(endless.err.find("b.js, a.js, b.js") != std::string::npos, endless.err);
   const ShellResult ends = folder.run("dotek new job --from ends.cps");
   CHECK_MESSAGE(ends.status == 0, ends.err);
+}
+
+TEST_CASE("fusion posts: lines of a buffer are those of who wrote them there") {
+  driver::RunPostOptions options;
+  options.post = (root() / "tests/golden/run-post/buffers/post.cps").string();
+  options.job = (root() / "tests/golden/run-post/buffers/job.toml").string();
+  options.map = true;
+  options.common.scriptProgram = runningProgram();
+  const driver::Outcome outcome = driver::runPost(options);
+  REQUIRE(outcome.status == 0);
+  REQUIRE(outcome.maps.size() == 1);
+  std::string out;
+  for (const MappedLine& line : outcome.maps.front().lines)
+    out += line.reason + "\n";
+  CHECK(outcome.output == "%\nM98 P1\nO1\nG65 P9811 X1\nG80G65 P9811 X2\nG80\nM99\n");
+  CHECK(out == "onOpen\nonCycleEnd\nonClose\nonCyclePoint\nonCyclePoint\nonCyclePoint\nonClose\n");
 }

@@ -1,0 +1,6 @@
+description = "Only its end is printed";
+function onCyclePoint(x, y, z) {
+}
+function onCycleEnd() {
+  writeln("G80");
+}
