@@ -84,6 +84,16 @@ PostFault::Kind kindOf(std::string_view name) {
   return PostFault::Kind::Thrown;
 }
 
+// "identifier 'TextFile' undefined" of what the engine has and the kernel lacks.
+void nameAbsent(PostFault& fault, const stdlib::DataFiles& data) {
+  constexpr std::string_view kUndefined = "ReferenceError: identifier '";
+  if (fault.kind != PostFault::Kind::Thrown || !fault.text.starts_with(kUndefined)) return;
+  const std::string name =
+      fault.text.substr(kUndefined.size(), fault.text.find('\'', kUndefined.size()) - kUndefined.size());
+  if (stdlib::FusionNames::load(data).absent.contains(name))
+    fault.text = fmt::format("`{}` of Fusion is not carried out by Dotek's kernel", name);
+}
+
 PostFault faultOf(const script::Fault& fault) {
   PostFault out;
   out.kind = fault.kind == script::Fault::Kind::Script    ? PostFault::Kind::Thrown
@@ -200,7 +210,11 @@ std::string PostRunner::setup(bool inch, const std::map<std::string, std::string
   std::vector<std::string> missing;
   for (const std::string& name : names.functions)
     missing.push_back(jsonText(name));
+  std::vector<std::string> entries;
+  for (const std::string& name : names.entries)
+    entries.push_back(jsonText(name));
   JsonObject all;
+  all.add("entries", jsonList(entries));
   all.add("settings", settings.text());
   all.add("values", values.text());
   all.add("missing", jsonList(missing));
@@ -225,6 +239,7 @@ bool PostRunner::load(const std::string& path, bool inch) {
   if (!fault) return true;
   PostResult result;
   result.fault = faultOf(*fault);
+  nameAbsent(*result.fault, session_.data());
   report(result);
   return false;
 }
@@ -234,6 +249,7 @@ PostResult PostRunner::run(const std::string& job) {
   auto answer = runner_.run(job);
   if (const script::Fault* fault = std::get_if<script::Fault>(&answer)) {
     out.fault = faultOf(*fault);
+    nameAbsent(*out.fault, session_.data());
     return out;
   }
   for (const std::string& text : std::get<script::Texts>(answer)) {
@@ -254,6 +270,7 @@ PostResult PostRunner::run(const std::string& job) {
     default: break;
     }
   }
+  if (out.fault) nameAbsent(*out.fault, session_.data());
   return out;
 }
 

@@ -59,6 +59,7 @@ FusionNames FusionNames::load(const DataFiles& files) {
   take("classes", out.classes);
   take("javascript", out.javascript);
   take("valued", out.valued);
+  take("absent", out.absent);
   for (const TomlTable& table : root.value("family").tables()) {
     const Family& family = out.families.emplace_back(familyOf(document, table));
     out.all.insert(family.names.begin(), family.names.end());

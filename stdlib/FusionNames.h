@@ -20,9 +20,9 @@ struct FusionNames {
   };
 
   std::set<std::string, std::less<>> entries, hooks, functions, variables, classes, javascript, valued;
+  std::set<std::string, std::less<>> absent; // of variables and classes: what the kernel does not carry out
   std::vector<Family> families;
-  std::map<std::string, std::string, std::less<>> absent; // names that the kernel does not carry out, and why
-  std::set<std::string, std::less<>> all;                 // all of these
+  std::set<std::string, std::less<>> all; // all of these
 
   static FusionNames load(const DataFiles& files);
 };

@@ -21,8 +21,10 @@ function give(names) {
   }
 }
 
+// The engine's own, where a post has none, is no entry of the post.
 function entry(name) {
-  return typeof global[name] === "function" ? global[name] : undefined;
+  var of = global[name];
+  return typeof of === "function" && !of.dotekOwn ? of : undefined;
 }
 
 function callEntry(name, parameters) {

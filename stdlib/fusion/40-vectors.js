@@ -118,8 +118,9 @@ Object.defineProperty(Matrix.prototype, "negated", {get: function () { return th
 Matrix.prototype.getRight = function () { return this.right; };
 Matrix.prototype.getUp = function () { return this.up; };
 Matrix.prototype.getForward = function () { return this.forward; };
-Matrix.prototype.getElement = function (row, column) { return this.rows[row][column]; };
-Matrix.prototype.setElement = function (row, column, value) { this.rows[row][column] = value; };
+// Posts compute them by division: the fraction is dropped.
+Matrix.prototype.getElement = function (row, column) { return this.rows[row | 0][column | 0]; };
+Matrix.prototype.setElement = function (row, column, value) { this.rows[row | 0][column | 0] = value; };
 Matrix.prototype.getRow = function (row) { return new Vector(this.rows[row][0], this.rows[row][1], this.rows[row][2]); };
 Matrix.prototype.getColumn = function (i) { return new Vector(this.rows[0][i], this.rows[1][i], this.rows[2][i]); };
 Matrix.prototype.getTransposed = function () {
@@ -216,6 +217,13 @@ Matrix.prototype.getTiltAndTilt = function (first, second) {
   }
   return this.getEuler2(values.EULER_XYZ_R);
 };
+// Angles of a tilted plane are the engine's choice, and no source states it.
+Matrix.prototype.getTurnAndTilt = function () {
+  if (isSameDirection(this.forward, new Vector(0, 0, 1))) {
+    return new Vector(0, 0, 0);
+  }
+  throw sourceError("the angles of a tilted work plane are not known to Dotek's kernel");
+};
 Matrix.diff = function (a, b) {
   return fromRows(a.rows.map(function (row, i) { return row.map(function (one, k) { return one - b.rows[i][k]; }); }));
 };
@@ -243,6 +251,9 @@ function Range(minimum, maximum) {
   this.minimum = minimum;
   this.maximum = maximum;
 }
+["minimum", "maximum"].forEach(function (name, i) { // posts read both forms
+  Object.defineProperty(Range.prototype, String(i), {get: function () { return this[name]; }});
+});
 Range.prototype.getMinimum = function () { return this.minimum; };
 Range.prototype.getMaximum = function () { return this.maximum; };
 Range.prototype.getSize = function () { return this.maximum - this.minimum; };

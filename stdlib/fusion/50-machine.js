@@ -84,9 +84,11 @@ function MachineConfiguration() {
     MachineConfiguration.prototype["getHomePosition" + name] = function () { return this.homes[i] || 0; };
     MachineConfiguration.prototype["setHomePosition" + name] = function (value) { this.homes[i] = value; };
     MachineConfiguration.prototype["getAxis" + name] = function () { return this.linear[i]; };
+    MachineConfiguration.prototype["setAxis" + name] = function (axis) { this.linear[i] = axis; };
   });
   ["U", "V", "W"].forEach(function (name, i) {
     MachineConfiguration.prototype["getAxis" + name] = function () { return this.axes[i]; };
+    MachineConfiguration.prototype["setAxis" + name] = function (axis) { this.axes[i] = axis; };
   });
 }());
 MachineConfiguration.prototype.getAxes = function () { return this.axes; };

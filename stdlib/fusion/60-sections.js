@@ -122,6 +122,8 @@ Section.prototype.getProperty = function (name, otherwise) {
 Section.prototype.getInitialPosition = function () {
   return this.dotek.initial ? vectorOf(this.dotek.initial, true) : this.dotekPoints[0] || new Vector();
 };
+Section.prototype.getFirstPosition = Section.prototype.getInitialPosition;
+Section.prototype.hasWellDefinedPosition = function () { return this.dotekPoints.length > 0 || Boolean(this.dotek.initial); };
 Section.prototype.getFinalPosition = function () {
   return this.dotekPoints[this.dotekPoints.length - 1] || this.getInitialPosition();
 };
@@ -234,7 +236,9 @@ Section.prototype.getStrategy = function () { return this.strategy; };
 Section.prototype.getTransformation = function () { return new Matrix(); };
 Section.prototype.getSpindle = function () { return this.spindle; };
 Section.prototype.getNumberOfRecords = function () { return this.dotekRecords.length; };
-Section.prototype.checkGroup = function () { return false; };
+Section.prototype.checkGroup = function (group) {
+  return group === values.STRATEGY_DRILLING && (this.strategy === "drill" || isDrilling(this.getFirstCycle()));
+};
 Section.prototype.getContentFlags = function () { return 0; };
 Section.prototype.getToolChange = function () { return true; };
 

@@ -227,6 +227,44 @@ function expandCyclePoint(x, y, z) {
   }
 }
 
+function isDrilling(type) {
+  return type !== undefined && type !== "" && !/^probing|^inspect/.test(type);
+}
+
+// What holds for the arc that is carried out, by the names of the engine's variables.
+function arcVariables() {
+  var of = {clockwise: "isClockwise", center: "getCircularCenter", chordLength: "getCircularChordLength",
+    fullCircle: "isFullCircle", helical: "isHelical", helicalDistance: "getHelicalDistance",
+    helicalOffset: "getHelicalOffset", normal: "getCircularNormal", plane: "getCircularPlane",
+    radius: "getCircularRadius", sweep: "getCircularSweep"};
+  var out = {end: function () { return motion().end; }, length: function () { return circularRadius() * circularSweep(); }};
+  Object.keys(of).forEach(function (name) { out[name] = global[of[name]]; });
+  Object.keys(out).forEach(function (name) {
+    Object.defineProperty(global, name, {configurable: true, get: out[name], set: function (value) {
+      Object.defineProperty(global, name, {configurable: true, enumerable: true, writable: true, value: value});
+    }});
+  });
+}
+
+// A post may call an entry function that it leaves to the engine.
+function ownEntries(names) {
+  var known = {onExpandedRapid: "onRapid", onExpandedLinear: "onLinear"};
+  names.forEach(function (name) {
+    if (global[name] !== undefined) {
+      return;
+    }
+    global[name] = function () {
+      if (known[name] !== undefined) {
+        callEntry(known[name], arguments);
+      } else if (!state.told["entry " + name]) {
+        state.told["entry " + name] = true;
+        warning("the post calls " + name + ", which it does not define; no source states what the engine's own does: nothing is done");
+      }
+    };
+    global[name].dotekOwn = true;
+  });
+}
+
 function commandName(command) {
   return nameOfConstant("COMMAND_", command);
 }
@@ -304,7 +342,6 @@ give({
   },
   getFirstTool: function () { return state.sections.length === 0 ? undefined : state.sections[0].dotekTool; },
   getToolTable: function () { return new ToolTable(); },
-  getNumberOfTools: function () { return new ToolTable().getNumberOfTools(); },
   getTool: function (i) { return new ToolTable().getTool(i); },
   isToolChangeNeeded: function (section) {
     var of = section === undefined || typeof section === "string" ? state.section : section;
@@ -402,7 +439,7 @@ give({
   },
   isDrillingCycle: function (section, strict) {
     var type = typeof section === "object" ? section.getFirstCycle() : global.cycleType;
-    return type !== undefined && !/^probing|^inspect/.test(type) && type !== "" && strict !== null;
+    return isDrilling(type) && strict !== null;
   },
   isTappingCycle: function () { return /tapping/.test(global.cycleType); },
   isFirstCyclePoint: function () { return state.cyclePoint === 0; },
@@ -431,7 +468,7 @@ give({
     }
   },
   skipRemainingSection: function () { state.skip = true; },
-  invokeOnRapid: invoke("onRapid", true), invokeOnLinear: invoke("onLinear", true),
+  invokeOnRapid: invoke("onRapid", true),
   invokeOnRapid5D: invoke("onRapid5D", true), invokeOnLinear5D: invoke("onLinear5D", true),
   getCircularPlane: circularPlane, getCircularSweep: circularSweep, getCircularRadius: circularRadius,
   getCircularStartRadius: circularRadius, getHelicalDistance: helicalDistance,
@@ -501,8 +538,12 @@ give({
   getHighFeedMapping: function () { return global.highFeedMapping; },
   setHighFeedMapping: function (mapping) { global.highFeedMapping = mapping; },
   setDogLeg: function () {}, getDogLeg: function () { return false; },
-  hasSymbol: function (name) { return global[name] !== undefined; },
-  loadLocale: function () { return true; }, hasMicroLathe: function () { return false; },
+  getQuadrant: function (angle) { return ((Math.floor(angle / (Math.PI / 2)) % 4) + 4) % 4; },
+  // Of the system a run knows nothing.
+  hasRegistryValue: function () { return false; }, getRegistryString: function () { return ""; },
+  getEnvironmentVariable: function () { return ""; },
+  hasSymbol: function (name) { return name in global; },
+  loadLocale: function () { return true; },
   interval: function (a, b) { return new Range(a, b); }, range: function (a, b) { return new Range(a, b); },
   registerPostProcessing: function () {},
   createToolRenderer: function () { return undefined; },

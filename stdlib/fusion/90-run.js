@@ -289,6 +289,8 @@ global.dotekPrepare = function (setup) {
       });
     }
   });
+  arcVariables();
+  ownEntries(setup.entries);
   setup.missing.forEach(function (one) {
     if (global[one] === undefined) {
       global[one] = function () {
@@ -312,7 +314,9 @@ global.dotekPrepare = function (setup) {
     allowHelicalMoves: true, allowSpiralMoves: false, minimumChordLength: 0, minimumCircularRadius: 0,
     maximumCircularRadius: 0, minimumCircularSweep: 0, maximumCircularSweep: 0, simulation: simulationOf(),
     probeMultipleFeatures: false, allowMachineChangeOnSection: false, safeRetractDistance: 0, safeRetractFeed: 0,
-    safePlungeFeed: 0, bufferRotaryMoves: false});
+    safePlungeFeed: 0, bufferRotaryMoves: false, spindleAxis: values.Z, abortOnDeprecation: false,
+    allowFeedPerRevolutionDrilling: false, allowRotatedToolpath: false, deprecated: false, filename: "", keywords: "",
+    supportedFeatures: 0, groupDefinitions: undefined, propertyDefinitions: undefined, wcsDefinitions: undefined});
 };
 
 return run;

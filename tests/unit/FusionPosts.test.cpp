@@ -1,16 +1,19 @@
 // Posts of Fusion that run: the kernel against a second one, and what stops a post.
 #include "driver/RunPost.h"
+#include "stdlib/FusionNames.h"
 #include "support/Worker.h"
 #include "support/messages/Verify.h"
 #include "tests/GoldenRunner.h"
 #include "tests/Process.h"
 #include "tests/Skips.h"
+#include "tests/policy/Tree.h"
 
 #include <algorithm>
 #include <array>
 #include <cstdio>
 #include <doctest/doctest.h>
 #include <filesystem>
+#include <set>
 #include <string>
 
 namespace fs = std::filesystem;
@@ -77,6 +80,44 @@ TEST_CASE("fusion posts: an include that includes itself is named, and one that 
   CHECK_MESSAGE(endless.err.find("b.js, a.js, b.js") != std::string::npos, endless.err);
   const ShellResult ends = folder.run("dotek new job --from ends.cps");
   CHECK_MESSAGE(ends.status == 0, ends.err);
+}
+
+TEST_CASE("fusion posts: the kernel and the list of its names agree") {
+  const stdlib::DataFiles data;
+  const auto names = stdlib::FusionNames::load(data);
+  const ProcessFolder folder;
+  // What a post finds, beside what it declares itself.
+  folder.write("post.cps",
+               "function onOpen() {\n  var own = (function () { return this; }()) || this;\n"
+               "  Object.getOwnPropertyNames(own).sort().forEach(function (name) { writeln(name); });\n}\n");
+  folder.write("job.toml", "schema = 1\n\n[[section]]\ntool = { number = 1 }\n");
+  const ShellResult shown = folder.run("dotek run-post post.cps job.toml");
+  REQUIRE_MESSAGE(shown.status == 0, shown.err);
+  const std::vector<std::string> lines = linesOf(shown.out);
+  const std::set<std::string, std::less<>> found(lines.begin(), lines.end());
+  // Of the engine that carries out the script.
+  const std::set<std::string, std::less<>> engine = {
+      "Buffer", "CBOR",        "Duktape",           "TextDecoder", "TextEncoder", "onOpen",
+      "performance", "Uint8ClampedArray", "dotekEs6",    "dotekPrepare"};
+  std::string unlisted, lacking;
+  for (const std::string& name : found)
+    if (!name.empty() && !names.all.contains(name) && !engine.contains(name)) unlisted += name + " ";
+  CHECK(unlisted == "");
+  for (const auto* list : {&names.functions, &names.variables, &names.classes, &names.entries, &names.valued})
+    for (const std::string& name : *list)
+      if (found.contains(name) == names.absent.contains(name)) lacking += name + " ";
+  for (const auto& family : names.families)
+    for (const std::string& name : family.names)
+      if (!found.contains(name)) lacking += name + " ";
+  CHECK(lacking == "");
+  for (const std::string& name : names.absent) {
+    INFO(name);
+    folder.write("post.cps", "function onOpen() {\n  writeln(" + name + ");\n}\n");
+    const ShellResult run = folder.run("dotek run-post post.cps job.toml");
+    CHECK(run.status == 1);
+    CHECK(run.err.find("the post fails: `" + name + "` of Fusion is not carried out by Dotek's kernel") !=
+          std::string::npos);
+  }
 }
 
 TEST_CASE("fusion posts: lines of a buffer are those of who wrote them there") {
