@@ -223,7 +223,7 @@ Outcome newJob(const RunPostOptions& options) {
     posts::PostRunner runner(session, script::Options(session.options().scriptProgram, session.limits()));
     if (!runner.load(options.post, false)) return outcomeOf(session, "");
     return outcomeOf(session,
-                     posts::newPostJob(options.post, runner.properties(),
+                     posts::newPostJob(options.post, runner.properties(), runner.capabilities(),
                                        posts::namesProbing(session.sources().file(runner.file()).bytes())));
   });
 }

@@ -137,7 +137,8 @@ bool namesProbing(std::string_view text) {
                      [&](std::string_view mark) { return text.find(mark) != std::string_view::npos; });
 }
 
-std::string newPostJob(const std::string& post, const std::vector<PostProperty>& properties, bool probes) {
+std::string newPostJob(const std::string& post, const std::vector<PostProperty>& properties,
+                       const std::vector<std::string>& capabilities, bool probes) {
   std::string out =
       "# What `dotek run-post` hands to " + printable(post) +
       "\nschema = 1\nunit = \"mm\"\n\n[program]\nname = "
@@ -150,6 +151,40 @@ std::string newPostJob(const std::string& post, const std::vector<PostProperty>&
     out += (plain ? "" : "# ") + jsonText(one.name) + " = " + one.value + "\n";
   }
   out += "\n# One operation after the other; the steps of an operation in their order.\n";
+  const auto has = [&](std::string_view name) {
+    return std::find(capabilities.begin(), capabilities.end(), name) != capabilities.end();
+  };
+  if (has("turning") && !has("milling")) {
+    out += "# The post is one for turning: no mill's operation is written.\n";
+    return out + R"([[section]]
+type = "TYPE_TURNING"
+strategy = "turningProfileRoughing"
+work_offset = 1
+tool = { number = 2, type = "TOOL_TURNING_GENERAL", description = "turn", spindleRPM = 800, surfaceSpeed = 120000.0, maximumSpindleSpeed = 2000, noseRadius = 0.8, coolant = "COOLANT_FLOOD" }
+parameters = { "operation-comment" = "Turn" }
+before = [{ manual = "STOP" }]
+
+[[section.step]]
+rapid = [30.0, 0.0, 5.0]
+
+[[section.step]]
+rapid = [20.0, 0.0, 5.0]
+
+[[section.step]]
+linear = [20.0, 0.0, -15.0]
+feed = 200.0
+
+[[section.step]]
+arc = [25.0, 0.0, -20.0]
+center = [25.0, 0.0, -15.0]
+plane = "ZX"
+clockwise = true
+feed = 200.0
+
+[[section.step]]
+rapid = [30.0, 0.0, 5.0]
+)";
+  }
   if (!probes) out += "# The post names no probing cycle: a section of strategy \"probe\" is left out.\n";
   if (probes)
     out += R"([[section]]
@@ -180,7 +215,7 @@ rapid = [10.0, 10.0, 20.0]
 [[section.step]]
 cycle = "drilling"
 points = [[10.0, 10.0, 0.0], [30.0, 10.0, 0.0]]
-with = { clearance = 20.0, retract = 5.0, stock = 0.0, depth = 12.0, bottom = -12.0, feedrate = 200.0 }
+with = { clearance = 20.0, retract = 5.0, stock = 0.0, depth = 12.0, bottom = -12.0, feedrate = 200.0, retractFeedrate = 400.0, plungeFeedrate = 200.0, dwell = 0.0, incrementalDepth = 5.0, accumulatedDepth = 12.0, plungesPerRetract = 3 }
 
 [[section.step]]
 linear = [40.0, 10.0, 20.0]

@@ -38,7 +38,8 @@ std::vector<std::string> matrixKinds(const project::Session& session);
 struct PostProperty;
 // The beginning of a job file, with the properties of a post. `probes`: it begins with an operation of the
 // CAM's own probing, which a post that knows none refuses.
-std::string newPostJob(const std::string& post, const std::vector<PostProperty>& properties, bool probes);
+std::string newPostJob(const std::string& post, const std::vector<PostProperty>& properties,
+                       const std::vector<std::string>& capabilities, bool probes);
 // Whether the text of a post names a probing cycle of the CAM, or asks for one, or leaves that to what it
 // includes.
 bool namesProbing(std::string_view text);

@@ -280,8 +280,17 @@ std::vector<PostProperty> PostRunner::properties() {
   if (!std::holds_alternative<script::Texts>(answer)) return out;
   for (const std::string& text : std::get<script::Texts>(answer)) {
     const auto lines = linesOf(std::string_view(text).substr(1));
-    if (lines.size() >= 4) out.push_back({lines[0], lines[1], lines[2], lines[3]});
+    if (text.front() == 'P' && lines.size() >= 4) out.push_back({lines[0], lines[1], lines[2], lines[3]});
   }
+  return out;
+}
+
+std::vector<std::string> PostRunner::capabilities() {
+  std::vector<std::string> out;
+  auto answer = runner_.run(R"({"list": "properties"})");
+  if (!std::holds_alternative<script::Texts>(answer)) return out;
+  for (const std::string& text : std::get<script::Texts>(answer))
+    if (text.starts_with('C')) out.push_back(text.substr(1));
   return out;
 }
 

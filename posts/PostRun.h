@@ -67,7 +67,9 @@ public:
   // Reads the post and what it includes, and evaluates its top level. false: reported.
   bool load(const std::string& path, bool inch);
   PostResult run(const std::string& job);
-  std::vector<PostProperty> properties(); // of the post, in their order
+  std::vector<PostProperty> properties();
+  // "milling", "turning", ..: what the head of the post names.
+  std::vector<std::string> capabilities(); // of the post, in their order
   FileId file() const { return file_; }
   // The range of a line of the post; without a place where it has none.
   SourceRange lineRange(std::uint32_t line) const;

@@ -46,7 +46,9 @@ function Tool(given) {
   });
 }());
 Tool.prototype.getTipDiameter = function () { return this.tipDiameter; };
-Tool.prototype.isTurningTool = function () { return false; };
+Tool.prototype.isTurningTool = function () {
+  return nameOfConstant("TOOL_", this.type).indexOf("TOOL_TURNING_") === 0;
+};
 Tool.prototype.isLiveTool = function () { return this.liveTool; };
 Tool.prototype.isDrill = function () {
   return [values.TOOL_DRILL, values.TOOL_DRILL_CENTER, values.TOOL_DRILL_SPOT].indexOf(this.type) >= 0;

@@ -206,7 +206,7 @@ function at(places) {
 }
 
 // The list: of each text the first letter says what it is. N: the program; M: a line of the map; F: a file; W: a
-// warning; L: the log; E: what ended the run, with places and circumstances; P: a property.
+// warning; L: the log; E: what ended the run, with places and circumstances; P: a property; C: a capability.
 function run(job) {
   loading = false;
   begin(job);
@@ -249,6 +249,11 @@ function propertiesOf() {
       return one !== null && typeof one === "object" ? one.id : one;
     });
     out.push("P" + [name, JSON.stringify(valueOfProperty(all[name])), of.title || "", choices.join(" ")].join("\n"));
+  });
+  ["MILLING", "TURNING", "JET", "ADDITIVE"].forEach(function (name) {
+    if ((global.capabilities & values["CAPABILITY_" + name]) !== 0) {
+      out.push("C" + name.toLowerCase());
+    }
   });
   return out;
 }

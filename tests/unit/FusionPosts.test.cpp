@@ -97,8 +97,8 @@ TEST_CASE("fusion posts: the kernel and the list of its names agree") {
   const std::set<std::string, std::less<>> found(lines.begin(), lines.end());
   // Of the engine that carries out the script.
   const std::set<std::string, std::less<>> engine = {
-      "Buffer", "CBOR",        "Duktape",           "TextDecoder", "TextEncoder", "onOpen",
-      "performance", "Uint8ClampedArray", "dotekEs6",    "dotekPrepare"};
+      "Buffer", "CBOR",        "Duktape",           "TextDecoder", "TextEncoder",
+      "onOpen", "performance", "Uint8ClampedArray", "dotekEs6",    "dotekPrepare"};
   std::string unlisted, lacking;
   for (const std::string& name : found)
     if (!name.empty() && !names.all.contains(name) && !engine.contains(name)) unlisted += name + " ";
@@ -134,4 +134,24 @@ TEST_CASE("fusion posts: lines of a buffer are those of who wrote them there") {
     out += line.reason + "\n";
   CHECK(outcome.output == "%\nM98 P1\nO1\nG65 P9811 X1\nG80G65 P9811 X2\nG80\nM99\n");
   CHECK(out == "onOpen\nonCycleEnd\nonClose\nonCyclePoint\nonCyclePoint\nonCyclePoint\nonClose\n");
+}
+
+TEST_CASE("fusion posts: a job that `new job` writes runs") {
+  const ProcessFolder folder;
+  folder.write("drill.cps",
+               "description = \"Reads all of a drilling cycle\";\ncapabilities = CAPABILITY_MILLING;\n"
+               "var format = createFormat({decimals:1});\nfunction onCyclePoint(x, y, z) {\n"
+               "  writeWords(format.format(cycle.dwell), format.format(cycle.incrementalDepth),\n"
+               "    format.format(cycle.retractFeedrate), format.format(cycle.plungeFeedrate));\n}\n");
+  folder.write("lathe.cps",
+               "capabilities = CAPABILITY_TURNING;\nfunction onCircular() {\n"
+               "  writeWords(isTurning(), tool.isTurningTool(), getCircularPlane() == PLANE_ZX);\n}\n");
+  const ShellResult drill =
+      folder.run("dotek new job --from drill.cps -o d.toml && dotek run-post drill.cps d.toml");
+  CHECK_MESSAGE(drill.status == 0, drill.err);
+  CHECK(drill.out == "0 5 400 200\n0 5 400 200\n");
+  const ShellResult lathe =
+      folder.run("dotek new job --from lathe.cps -o l.toml && dotek run-post lathe.cps l.toml");
+  CHECK_MESSAGE(lathe.status == 0, lathe.err);
+  CHECK(lathe.out == "true true true\n");
 }
