@@ -86,6 +86,37 @@ const Node* topLevelValue(const PostFile& post, std::string_view name) {
   return out;
 }
 
+const Node* objectOf(const PostFile& post, const Node* node) {
+  node = fusion::bare(node);
+  if (node == nullptr || !node->is(Kind::Name)) return node;
+  const fusion::Symbol* const symbol = post.scopes.symbolOf(node);
+  if (symbol == nullptr || symbol->value == nullptr) return node;
+  for (const fusion::Use& use : post.scopes.uses)
+    if (use.symbol == symbol && use.kind != fusion::Use::Kind::Read && use.value != symbol->value)
+      return node;
+  const Node* const value = fusion::bare(symbol->value);
+  return value->is(Kind::Object) || value->is(Kind::Array) ? value : node;
+}
+
+bool callsMeasuringMacro(const Node& call) {
+  for (std::size_t i = 1; i < call.kids.size() && i < 4; ++i) {
+    const Node* part = fusion::bare(call.kids[i]);
+    std::string text;
+    if (part->is(Kind::Binary) && part->text == "+" && textLiteral(part->kids[0]) == "P" &&
+        part->kids[1]->is(Kind::Number))
+      text = "P" + std::string(part->kids[1]->text);
+    else
+      text = std::string(textLiteral(part));
+    const std::size_t at = text.find('P');
+    if (at == std::string::npos || text.size() < at + 5) continue;
+    const std::string number = text.substr(at + 1, 4);
+    if (number.find_first_not_of("0123456789") != std::string::npos) continue;
+    return (number[0] == '9' || number[0] == '8') && number[1] == '8' && number.substr(2) != "10" &&
+           number.substr(2) != "32" && number.substr(2) != "33";
+  }
+  return false;
+}
+
 std::vector<Made> madeOf(const PostFile& post) {
   std::vector<Made> out;
   const auto take = [&](const fusion::Symbol& symbol, const Node* value) {
@@ -97,7 +128,7 @@ std::vector<Made> madeOf(const PostFile& post) {
         maker != "createIncrementalVariable" && maker != "createModalGroup")
       return;
     Made one{&symbol, maker, value, nullptr, {}};
-    if (const Node* first = fusion::bare(value->kid(1)); first != nullptr && first->is(Kind::Object)) {
+    if (const Node* first = objectOf(post, value->kid(1)); first != nullptr && first->is(Kind::Object)) {
       one.specifiers = first;
       one.prefix = textLiteral(propertyOf(first, "prefix"));
     }

@@ -32,9 +32,14 @@ std::string calledName(const fusion::Node& call);
 std::string_view textLiteral(const fusion::Node* node);
 // Of an object literal: the value of a property; nullptr: it has none.
 const fusion::Node* propertyOf(const fusion::Node* object, std::string_view name);
+// An object or a list that is written here, or is the one value of the variable that is named.
+const fusion::Node* objectOf(const PostFile& post, const fusion::Node* node);
 std::string_view keyOf(const fusion::Node& property); // without quotes
 // The last statement of these that cannot be left downward: return, throw, break, continue, error(..).
 bool endsFlow(const fusion::Node* statement);
+// Arguments of a writer begin with a macro that measures: P9811 to P9899 and their like, no protected move.
+// What is not written as a number is not judged.
+bool callsMeasuringMacro(const fusion::Node& call);
 // Calls `visit` with the node and all below it, but not with what is within functions, unless `functions`.
 void walk(const fusion::Node* node, const std::function<void(const fusion::Node&)>& visit,
           bool functions = false);

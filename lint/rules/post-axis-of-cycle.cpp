@@ -3,6 +3,11 @@
 namespace dotek::lint::rule {
 namespace {
 
+// `.x` of `position.x` is no variable.
+bool isMember(const PostFile& post, const fusion::Node& name) {
+  return post.scopes.symbolOf(&name) == nullptr;
+}
+
 void check(const Project& project, Report& report) {
   forEachNode(project, fusion::Kind::Case, [&](const PostFile& post, const fusion::Node& one) {
     const std::string_view type = textLiteral(one.kids[0]);
@@ -15,6 +20,25 @@ void check(const Project& project, Report& report) {
                      : type == "probing-z" ? 'Z'
                                            : '\0';
     if (own == '\0') return;
+    // `"Y" + format.format(x)`: the coordinate of another axis alone.
+    const auto judge = [&](const fusion::Node& value) {
+      const fusion::Node* other = nullptr;
+      bool mine = false;
+      walk(&value, [&](const fusion::Node& part) {
+        if (!part.is(fusion::Kind::Name) || (part.text != "x" && part.text != "y" && part.text != "z"))
+          return;
+        if (isMember(post, part)) return;
+        if (part.text[0] == own - 'A' + 'a')
+          mine = true;
+        else
+          other = &part;
+      });
+      if (other != nullptr && !mine)
+        report.at(
+            post.tree.range(*other),
+            "`{}` measures along {}, and the word {} has the coordinate {}: the probe moves to another place",
+            type, own, own, other->text);
+    };
     for (std::size_t i = 1; i < one.kids.size(); ++i)
       walk(one.kids[i], [&](const fusion::Node& call) {
         if (!call.is(fusion::Kind::Call) || calledName(call) != "writeBlock") return;
@@ -36,9 +60,10 @@ void check(const Project& project, Report& report) {
           if (!word->is(fusion::Kind::Binary) || word->text != "+") continue;
           const std::string_view letter = textLiteral(word->kids[0]);
           if (letter.size() != 1) continue;
-          if (letter[0] == own)
+          if (letter[0] == own) {
             right = true;
-          else if ((letter[0] == 'X' || letter[0] == 'Y') && wrong == nullptr)
+            judge(*word->kids[1]);
+          } else if ((letter[0] == 'X' || letter[0] == 'Y') && wrong == nullptr)
             wrong = word;
         }
         if (wrong != nullptr && !right)

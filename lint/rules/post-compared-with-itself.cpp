@@ -7,6 +7,18 @@ namespace dotek::lint::rule {
 namespace {
 
 bool isPlain(const fusion::Node& node) {
+  if (node.is(fusion::Kind::Call)) { // a question of the engine has one answer
+    const fusion::Node& called = *fusion::bare(node.kids[0]);
+    const std::string_view name = called.is(fusion::Kind::Member) ? called.kids[1]->text : called.text;
+    if (called.is(fusion::Kind::Member) ? !isPlain(*fusion::bare(called.kids[0]))
+                                        : !called.is(fusion::Kind::Name))
+      return false;
+    if (!name.starts_with("get") && !name.starts_with("is") && !name.starts_with("has")) return false;
+    return std::all_of(node.kids.begin() + 1, node.kids.end(), [](const fusion::Node* one) {
+      return fusion::bare(one)->is(fusion::Kind::Number) || fusion::bare(one)->is(fusion::Kind::String) ||
+             isPlain(*fusion::bare(one));
+    });
+  }
   return node.is(fusion::Kind::Name) ||
          (node.is(fusion::Kind::Member) && isPlain(*fusion::bare(node.kids[0])));
 }

@@ -6,6 +6,9 @@ namespace {
 bool isBuilt(const fusion::Node& call) {
   if (calledName(call) != "localize" || call.kids.size() < 2) return false;
   const fusion::Node* const text = fusion::bare(call.kids[1]);
+  if (text->is(fusion::Kind::Call) && text->kids[0]->is(fusion::Kind::Member) &&
+      text->kids[0]->kids[1]->text == "concat" && !textLiteral(text->kids[0]->kids[0]).empty())
+    return true;
   if (!text->is(fusion::Kind::Binary) && !text->is(fusion::Kind::Template)) return false;
   bool variable = false;
   walk(text, [&](const fusion::Node& part) {

@@ -33,7 +33,7 @@ void check(const Project& project, Report& report) {
     const std::string name = calledName(call);
     const auto known =
         std::find_if(kKnown.begin(), kKnown.end(), [&](const Known& one) { return one.maker == name; });
-    const fusion::Node* const given = fusion::bare(call.kid(1));
+    const fusion::Node* const given = objectOf(post, call.kid(1));
     if (known == kKnown.end() || given == nullptr || !given->is(fusion::Kind::Object)) return;
     for (const fusion::Node* one : given->kids) {
       if (!one->is(fusion::Kind::Property) || one->kids[0]->is(fusion::Kind::Computed)) continue;

@@ -40,7 +40,10 @@ void check(const Project& project, Report& report) {
     for (const fusion::Node& node : post.tree.nodes) {
       if (node.is(fusion::Kind::Member) && node.kids[0]->isName("properties"))
         judge(node.kids[1]->text, *node.kids[1]);
-      if (node.is(fusion::Kind::Call) && (calledName(node) == "getProperty") && node.kids.size() == 2)
+      const std::string called = node.is(fusion::Kind::Call) ? calledName(node) : "";
+      if ((called == "getProperty" || called == "currentSection.getProperty" ||
+           called == "section.getProperty") &&
+          node.kids.size() == 2)
         judge(textLiteral(node.kids[1]), *node.kids[1]);
     }
   });

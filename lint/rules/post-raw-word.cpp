@@ -1,9 +1,33 @@
 #include "lint/Posts.h"
 
+#include <algorithm>
 #include <map>
 
 namespace dotek::lint::rule {
 namespace {
+
+bool isPlainMove(std::string_view word) {
+  return word == "0" || word == "1" || word == "G0" || word == "G1" || word == "G00" || word == "G01";
+}
+
+std::vector<std::string> wordsOf(std::string_view text) {
+  std::vector<std::string> out;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find(' ', at), text.size());
+    if (end > at) out.emplace_back(text.substr(at, end - at));
+    at = end + 1;
+  }
+  return out;
+}
+
+// Of an argument: its words where they are texts, `"Z" + 100` too.
+std::vector<std::string> literalWords(const fusion::Node* node) {
+  node = fusion::bare(node);
+  if (node->is(fusion::Kind::Binary) && node->text == "+" &&
+      fusion::bare(node->kids[1])->is(fusion::Kind::Number))
+    return wordsOf(std::string(textLiteral(node->kids[0])) + std::string(fusion::bare(node->kids[1])->text));
+  return wordsOf(textLiteral(node));
+}
 
 void check(const Project& project, Report& report) {
   forEachPost(project, [&](const PostFile& post) {
@@ -22,24 +46,29 @@ void check(const Project& project, Report& report) {
           const std::string_view text = part.is(fusion::Kind::String)   ? fusion::stringText(part)
                                         : part.is(fusion::Kind::Number) ? part.text
                                                                         : std::string_view();
-          if (text.empty()) return;
-          const bool plain =
-              text == "0" || text == "1" || text == "G0" || text == "G1" || text == "G00" || text == "G01";
-          moves = moves || plain;
-          const std::string_view number = text.front() == 'G' || text.front() == 'M' ? text.substr(1) : text;
-          other = other || (!plain && number.find_first_not_of("0123456789") == std::string_view::npos &&
-                            number != "90" && number != "94" && number != "17");
+          for (const std::string& word : wordsOf(text)) {
+            const bool plain = isPlainMove(word);
+            moves = moves || plain;
+            const std::string number = word.front() == 'G' || word.front() == 'M' ? word.substr(1) : word;
+            const fusion::Node* const sum = fusion::bare(node.kids[i]); // `"Z" + 100`
+            const bool axis = sum->is(fusion::Kind::Binary) && fusion::bare(sum->kids[1]) == &part;
+            other =
+                other || (!plain && !axis && number.find_first_not_of("0123456789") == std::string::npos &&
+                          number != "90" && number != "94" && number != "17");
+          }
         });
       if (!moves || other) continue;
       for (std::size_t i = 1; i < node.kids.size(); ++i) {
-        const std::string_view text = textLiteral(node.kids[i]);
-        if (text.size() < 2 || std::string_view("-.0123456789").find(text[1]) == std::string_view::npos)
-          continue;
-        if (const auto at = owners.find(text.substr(0, 1));
-            at != owners.end() && text.find(' ') == std::string_view::npos)
+        for (const std::string& text : literalWords(node.kids[i])) {
+          if (text.size() < 2 || std::string_view("-.0123456789").find(text[1]) == std::string_view::npos)
+            continue;
+          const auto at = owners.find(std::string_view(text).substr(0, 1));
+          if (at == owners.end()) continue;
           report.at(post.tree.range(*node.kids[i]),
                     "`{}` is written past `{}`, which then leaves out a word that the control needs", text,
                     at->second);
+          break;
+        }
       }
     }
   });

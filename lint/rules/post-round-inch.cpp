@@ -7,6 +7,16 @@ namespace dotek::lint::rule {
 namespace {
 
 void check(const Project& project, Report& report) {
+  // `tool.diameter / 25`
+  forEachNode(project, fusion::Kind::Binary, [&](const PostFile& post, const fusion::Node& node) {
+    const fusion::Node* const number = fusion::bare(node.kids[1]);
+    if ((node.text != "/" && node.text != "*") || !number->is(fusion::Kind::Number) || number->text != "25")
+      return;
+    const std::string name = fusion::dotted(fusion::bare(node.kids[0]));
+    if (name == "tool.diameter" || name == "tool.cornerRadius" || name == "cycle.depth" ||
+        name.starts_with("cycle.width") || name.starts_with("cycle.probe"))
+      report.at(post.tree.range(*number), "an inch has 25.4 mm: `{}` comes out 1.6 percent off", name);
+  });
   constexpr auto kDimensions = std::to_array<std::string_view>({"cycle", "tool"});
   forEachNode(project, fusion::Kind::Call, [&](const PostFile& post, const fusion::Node& node) {
     const std::string name = calledName(node);
