@@ -74,7 +74,8 @@ void Lowering::rename() {
 // A function that is called within the pass in which it is made sees what it would see.
 bool Lowering::staysInPass(const Use& use) const {
   constexpr auto kAtOnce = std::to_array<std::string_view>(
-      {"forEach", "map", "filter", "find", "findIndex", "some", "every", "reduce", "sort", "replace"});
+      {"forEach", "map", "filter", "find", "findIndex", "some", "every", "reduce", "reduceRight", "flatMap",
+       "findLast", "findLastIndex", "sort", "replace"});
   const Scope* at = use.scope->function;
   const Node* const inner = at->node;
   for (const Node& node : tree_.nodes) {
@@ -99,6 +100,10 @@ void Lowering::checkClosures() {
   }
 }
 
+bool Lowering::keyIs(const Node& key, std::string_view name) {
+  return key.isName(name) || (key.is(Kind::String) && stringText(key) == name);
+}
+
 bool Lowering::changes(const Node& node) const {
   switch (node.kind) {
   case Kind::Variables: return node.text != "var";
@@ -115,7 +120,14 @@ bool Lowering::changes(const Node& node) const {
   case Kind::ObjectPattern:
   case Kind::Default:
   case Kind::Field: return true;
-  case Kind::Property: return node.flag;
+  case Kind::Property: return node.flag || keyIs(*node.kids[0], "__proto__");
+  case Kind::Number: return node.text.find('_') != std::string_view::npos;
+  case Kind::Parameters: { // a comma after the last one
+    const std::uint32_t from = node.kids.empty() ? node.end : node.kids.back()->end;
+    const std::string_view rest = tree_.text.substr(from, node.end - from);
+    const std::size_t at = rest.find_first_not_of(" \t\r\n");
+    return at != std::string_view::npos && rest[at] == ',';
+  }
   case Kind::Method: return node.text.empty();
   case Kind::Catch: return node.kids[0] == nullptr || !node.kids[0]->is(Kind::Name);
   case Kind::Name: {
@@ -127,6 +139,7 @@ bool Lowering::changes(const Node& node) const {
     return node.text == "**=" || node.text == "?\?=" || node.text == "||=" || node.text == "&&=";
   case Kind::Member:
   case Kind::Index: return node.flag;
+  case Kind::New:
   case Kind::Call: {
     if (node.flag) return true;
     const std::string_view rest = tree_.text.substr(node.kids.back()->end, node.end - node.kids.back()->end);
@@ -170,6 +183,11 @@ std::string Lowering::changed(const Node& node) {
   switch (node.kind) {
   case Kind::Variables: return variables(node, false);
   case Kind::Declarator: return declarator(node, false);
+  case Kind::Number: {
+    std::string out(node.text);
+    std::erase(out, '_');
+    return out;
+  }
   case Kind::Template: return templateText(node);
   case Kind::Tagged: refuse(node, "a tagged template literal"); return "undefined";
   case Kind::Arrow: return arrow(node);

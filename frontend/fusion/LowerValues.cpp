@@ -107,11 +107,14 @@ std::string Lowering::objectPart(const Node& node) {
 }
 
 std::string Lowering::object(const Node& node) {
-  const auto loose = [](const Node* one) {
-    return one->is(Kind::Spread) || one->kids[0]->is(Kind::Computed);
+  const auto isPrototype = [](const Node* one) { // `__proto__: value` sets it, and is no property
+    return one->is(Kind::Property) && !one->flag && keyIs(*one->kids[0], "__proto__");
+  };
+  const auto loose = [&](const Node* one) {
+    return one->is(Kind::Spread) || one->kids[0]->is(Kind::Computed) || isPrototype(one);
   };
   if (std::none_of(node.kids.begin(), node.kids.end(), loose)) return parts(node);
-  std::string out = "dotekEs6.assign({";
+  std::string out = "dotekEs6.object({";
   bool open = true, first = true;
   std::uint32_t from = node.begin;
   for (const Node* one : node.kids) {
@@ -121,7 +124,13 @@ std::string Lowering::object(const Node& node) {
       out += (open ? "}, " : ", ") + gap;
       open = false;
       if (one->is(Kind::Spread)) {
-        out += of(one->kids[0]);
+        out += "dotekEs6.spread(" + of(one->kids[0]) + ")";
+      } else if (isPrototype(one)) {
+        out += "dotekEs6.prototype(" + of(one->kids[1]) + ")";
+      } else if (!one->text.empty() && one->is(Kind::Method)) {
+        const Node& value = *one->kids[1];
+        out += fmt::format("dotekEs6.computed({}, \"{}\", function {})", of(one->kids[0]->kids[0]), one->text,
+                           functionRest(*value.kids[1], *value.kids[2], ""));
       } else {
         const Node& value = *one->kids[1];
         const std::string text = one->is(Kind::Method)
@@ -160,7 +169,10 @@ std::string Lowering::call(const Node& node) {
     if (called.is(Kind::Super)) return "dotekEs6.init(" + supers_.back() + ", this, " + all() + ")";
     return supers_.back() + ".prototype." + std::string(called.kids[1]->text) + ".apply(this, " + all() + ")";
   }
-  if (node.is(Kind::New)) return spread ? "dotekEs6.make(" + of(&called) + ", " + all() + ")" : parts(node);
+  if (node.is(Kind::New))
+    return spread                 ? "dotekEs6.make(" + of(&called) + ", " + all() + ")"
+           : node.kids.size() > 1 ? slice(node.begin, called.begin) + of(&called) + "(" + plain() + ")"
+                                  : parts(node);
   if (node.flag) return chain(node);
   const Node* optional = &called;
   while (optional->is(Kind::Member) || optional->is(Kind::Index) || optional->is(Kind::Call)) {
@@ -180,20 +192,22 @@ std::string Lowering::call(const Node& node) {
 // `a?.b.c(d)`: what follows the first `?.` is reached only where there is something before it.
 std::string Lowering::chain(const Node& node) {
   const Node* lowest = nullptr;
-  int optionals = 0;
   for (const Node* at = &node; at->is(Kind::Member) || at->is(Kind::Index) || at->is(Kind::Call);
        at = at->kids[0]) {
     if (!at->flag) continue;
-    lowest = at;
-    ++optionals;
+    lowest = at; // what is below it is a chain of its own, and of nothing comes nothing
+    break;
   }
   if (lowest == nullptr) return parts(node);
   const Node& object = *lowest->kids[0];
-  if (optionals > 1 || (lowest->is(Kind::Call) && !object.is(Kind::Name))) {
-    refuse(node, "several `?.` in one chain, or `?.` before the brackets of a method");
+  const bool method = lowest->is(Kind::Call) && !object.is(Kind::Name);
+  if (method && ((!object.is(Kind::Member) && !object.is(Kind::Index)) || object.flag || hasSpread(*lowest) ||
+                 object.kids[0]->is(Kind::Super))) {
+    refuse(node, "`?.` before these brackets");
     return "undefined";
   }
   const std::string name = temporary();
+  const std::string self = method ? temporary() : "";
   std::string rest;
   for (const Node* at = &node;; at = at->kids[0]) {
     const std::uint32_t from = at->kids[0]->end;
@@ -201,11 +215,15 @@ std::string Lowering::chain(const Node& node) {
     if (at == lowest) {
       const std::size_t mark = one.find("?.");
       one.erase(mark, at->is(Kind::Member) ? 1 : 2);
+      if (method) one.replace(one.find('('), 1, ".call(" + self + (at->kids.size() > 1 ? ", " : ""));
     }
     rest = one + rest;
     if (at == lowest) break;
   }
-  return fmt::format("(({0} = {1}) === null || {0} === undefined ? undefined : {0}{2})", name, of(&object),
+  return fmt::format("(({0} = {1}) === null || {0} === undefined ? undefined : {0}{2})", name,
+                     method ? fmt::format("({} = {}){}", self, of(object.kids[0]),
+                                          parts(object, object.kids[0]->end, object.end))
+                            : of(&object),
                      rest);
 }
 

@@ -17,6 +17,7 @@ public:
 private:
   // Preparation
   bool mark(const Node* node); // whether it, or a part of it, changes
+  static bool keyIs(const Node& key, std::string_view name);
   bool changes(const Node& node) const;
   void rename();
   void checkClosures();

@@ -10,7 +10,7 @@ var dotekEs6 = (function () {
       return of;
     }
     if (typeof of === "string") {
-      return of.split("");
+      return of.match(/[\uD800-\uDBFF][\uDC00-\uDFFF]|[\s\S]/g) || [];
     }
     if (typeof of.dotekList === "function") {
       return of.dotekList();
@@ -33,6 +33,47 @@ var dotekEs6 = (function () {
       }
     }
     return to;
+  }
+  // Parts of a literal in their order: its accessors stay accessors, those of a spread are read.
+  function Part(kind, value) {
+    this.kind = kind;
+    this.value = value;
+  }
+  function define(to, key, part) {
+    var had = Object.getOwnPropertyDescriptor(to, key);
+    if (part.value === undefined && !("value" in part) && had !== undefined && !("value" in had)) {
+      part.get = part.get || had.get;
+      part.set = part.set || had.set;
+    }
+    Object.defineProperty(to, key, part);
+  }
+  function object(to) {
+    for (var i = 1; i < arguments.length; ++i) {
+      var part = arguments[i];
+      if (!(part instanceof Part)) {
+        Object.getOwnPropertyNames(part).forEach(function (key) {
+          define(to, key, Object.getOwnPropertyDescriptor(part, key));
+        });
+      } else if (part.kind === "spread") {
+        if (part.value !== undefined && part.value !== null) {
+          Object.keys(Object(part.value)).forEach(function (key) {
+            define(to, key, {value: part.value[key], writable: true, enumerable: true, configurable: true});
+          });
+        }
+      } else if (part.value === null || typeof part.value === "object" || typeof part.value === "function") {
+        Object.setPrototypeOf(to, part.value);
+      }
+    }
+    return to;
+  }
+  function spread(value) { return new Part("spread", value); }
+  function prototype(value) { return new Part("prototype", value); }
+  function computed(key, kind, body) {
+    var out = {};
+    var how = {enumerable: true, configurable: true};
+    how[kind] = body;
+    Object.defineProperty(out, key, how);
+    return out;
   }
   function rest(of, taken) {
     var out = {};
@@ -127,6 +168,21 @@ var dotekEs6 = (function () {
     });
     return out;
   });
+  add(Array.prototype, "flatMap", function (call, self) { return this.map(call, self).flat(); });
+  add(Array.prototype, "findLastIndex", function (test, self) {
+    for (var i = this.length; i-- > 0;) {
+      if (test.call(self, this[i], i, this)) {
+        return i;
+      }
+    }
+    return -1;
+  });
+  add(Array.prototype, "findLast", function (test, self) { return this[this.findLastIndex(test, self)]; });
+  add(Object, "fromEntries", function (pairs) {
+    var out = {};
+    list(pairs).forEach(function (one) { out[one[0]] = one[1]; });
+    return out;
+  });
   add(Array, "from", function (of, map) {
     var out = list(of).slice();
     return map === undefined ? out : out.map(function (value, i) { return map(value, i); });
@@ -200,7 +256,7 @@ var dotekEs6 = (function () {
   add(Number, "MIN_SAFE_INTEGER", -9007199254740991);
 
   return {
-    list: list, assign: assign, rest: rest, pair: pair, extend: extend, init: init, make: make, accessor: accessor
+    list: list, assign: assign, object: object, spread: spread, prototype: prototype, computed: computed, rest: rest, pair: pair, extend: extend, init: init, make: make, accessor: accessor
   };
 })();
 
