@@ -1,8 +1,11 @@
 #include "posts/PostJob.h"
 
-#include "posts/Json.h"
+#include "posts/Cnc.h"
+#include "posts/CncJob.h"
+#include "posts/JobJson.h"
 #include "posts/PostRun.h"
 #include "stdlib/Toml.h"
+#include "support/Files.h"
 
 #include <algorithm>
 #include <array>
@@ -17,6 +20,8 @@ using stdlib::TomlTable;
 using stdlib::TomlValue;
 
 namespace {
+
+constexpr std::size_t kCncHead = 256; // tells a `.cnc` file
 
 std::string jsonOf(const TomlValue& value) {
   if (value.isText()) return jsonText(value.text());
@@ -148,7 +153,8 @@ std::string sectionOf(const TomlDocument& document, const TomlTable& table) {
   return out.text();
 }
 
-// A number, true, false, or a text.
+} // namespace
+
 std::string jsonOfArgument(const std::string& text) {
   double number = 0;
   const auto read = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -157,15 +163,21 @@ std::string jsonOfArgument(const std::string& text) {
   return text == "true" || text == "false" ? text : jsonText(text);
 }
 
-void common(const JobOptions& options, JsonObject& out) {
+void addCommon(const JobOptions& options, JsonObject& out) {
   out.add("most", std::to_string(options.most));
   out.add("map", options.map ? "true" : "false");
 }
 
-} // namespace
-
 std::optional<PostJob> readPostJob(const std::string& path, const JobOptions& options,
                                    project::Session& session) {
+  if (path != "-" && !isStream(path)) {
+    const auto head = readBeginning(path, kCncHead, session.diagnostics());
+    if (!head) return std::nullopt;
+    if (cnc::isCnc(*head)) {
+      const auto bytes = readBytes(path, session.limits(), session.diagnostics());
+      return bytes ? readCncJob(path, *bytes, options, session) : std::nullopt;
+    }
+  }
   const std::optional<FileId> file = session.read(path, Encoding::Utf8);
   if (!file) return std::nullopt;
   const auto document = TomlDocument::parse(*file, session.sources(), session.diagnostics());
@@ -174,7 +186,7 @@ std::optional<PostJob> readPostJob(const std::string& path, const JobOptions& op
   PostJob out;
   out.inch = root.value("unit").choice({"mm", "in"}, "mm") == "in";
   JsonObject job;
-  common(options, job);
+  addCommon(options, job);
   const TomlTable program = root.value("program").table();
   if (program.has("name")) job.add("programName", jsonText(program.value("name").text()));
   if (program.has("comment")) job.add("programComment", jsonText(program.value("comment").text()));

@@ -48,10 +48,10 @@ function numberOf(value, where) {
   return value;
 }
 
-// Jobs hold positions, heights and diameters as 32-bit floats.
+// Jobs hold positions, heights and diameters as 32-bit floats. Values of an exact job are as stored already.
 var single = new Float32Array(1);
 function rounded(value) {
-  if (typeof value !== "number") {
+  if (typeof value !== "number" || (state !== undefined && state.job.exact)) {
     return value;
   }
   single[0] = value;

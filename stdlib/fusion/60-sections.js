@@ -69,7 +69,7 @@ function Section(given, id) {
   this.dotekRecords = given.records || [];
   this.workOffset = given.workOffset === undefined ? 1 : given.workOffset;
   this.probeWorkOffset = given.probeWorkOffset === undefined ? this.workOffset : given.probeWorkOffset;
-  this.wcs = given.wcs === undefined ? "G" + (53 + this.workOffset) : given.wcs;
+  this.wcs = given.wcs === undefined ? "G" + (53 + (this.workOffset || 1)) : given.wcs;
   this.wcsIndex = this.workOffset;
   this.workOrigin = vectorOf(given.workOrigin);
   this.workPlane = given.workPlane === undefined ? new Matrix()
@@ -80,8 +80,8 @@ function Section(given, id) {
   this.type = given.type === undefined ? values.TYPE_MILLING : values[given.type];
   this.unit = global.unit;
   this.channel = 0;
-  this.quality = 0;
-  this.jetMode = values.JET_MODE_THROUGH;
+  this.quality = given.quality || 0;
+  this.jetMode = given.jetMode || values.JET_MODE_THROUGH;
   this.feedMode = values.FEED_PER_MINUTE;
   this.spindle = values.SPINDLE_PRIMARY;
   this.tailstock = false;

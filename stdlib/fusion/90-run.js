@@ -40,7 +40,7 @@ function circular(record) {
   var to = transformed(vectorOf(record.to, true));
   var center = transformed(vectorOf(record.center, true));
   var normals = {XY: new Vector(0, 0, 1), ZX: new Vector(0, 1, 0), YZ: new Vector(1, 0, 0)};
-  var normal = normals[record.plane || "XY"];
+  var normal = record.normal ? vectorOf(record.normal) : normals[record.plane || "XY"];
   var start = state.position || new Vector();
   state.motion = {start: start, end: to, center: center, normal: normal, clockwise: Boolean(record.clockwise),
     feed: record.feed, full: record.full === true};
