@@ -125,18 +125,6 @@ Findings subprogramsWithoutReturn(const Reading& reading) {
   return out;
 }
 
-Findings strayReturns(const Reading& reading) {
-  const auto calls = callsOf(reading);
-  Findings out;
-  for (std::size_t i = 0; i < reading.blocks.size(); ++i) {
-    if (!reading.blocks[i].does("return")) continue;
-    if (calls.empty() || calls.begin()->first > i)
-      out.push_back({reading.blocks[i].line->range,
-                     "no G26 leads to this M17; the control stops with an error when it is reached"});
-  }
-  return out;
-}
-
 void refuse(const Reading& reading, Diagnostics& diagnostics) {
   struct Check {
     std::string_view rule;
@@ -148,6 +136,7 @@ void refuse(const Reading& reading, Diagnostics& diagnostics) {
       {"suf-address-missing", missingAddresses},
       {"suf-address-not-taken", addressesNotTaken},
       {"suf-not-together", addressesNotTogether},
+      {"suf-twice", saidTwice},
       {"suf-range", valuesOutOfRange},
       {"suf-decimals", tooManyDecimals},
       {"suf-file-missing", missingFiles},

@@ -24,6 +24,7 @@ Findings unusableCodes(const Reading& reading);
 Findings missingAddresses(const Reading& reading);
 Findings addressesNotTaken(const Reading& reading);
 Findings addressesNotTogether(const Reading& reading);
+Findings saidTwice(const Reading& reading);
 Findings valuesOutOfRange(const Reading& reading);
 Findings tooManyDecimals(const Reading& reading);
 Findings missingFiles(const Reading& reading);

@@ -111,9 +111,14 @@ Findings valuesOutOfRange(const Reading& reading) {
 Findings missingFiles(const Reading& reading) {
   Findings out;
   eachFunction(reading, [&](const Line& line, const Code& code, const MikroprogFunction& function) {
-    if (function.find('@') != nullptr && !isPresent(line, '@'))
-      out.push_back({code.word->range, fmt::format("`{}` names no file; write `@NAME.{}`", function.code(),
-                                                   reading.control.dataEnding)});
+    if (function.find('@') == nullptr || isPresent(line, '@')) return;
+    out.push_back({code.word->range,
+                   function.function == "run-program"
+                       ? fmt::format("`{}` runs another program here and names no file; write `@NAME.{}`; a "
+                                     "way home is a G0 to a safe point, the reference run G98",
+                                     function.code(), reading.control.programEnding)
+                       : fmt::format("`{}` names no file; write `@NAME.{}`", function.code(),
+                                     reading.control.dataEnding)});
   });
   return out;
 }
@@ -157,6 +162,16 @@ Taken takenBy(const Block& block, char address) {
   return out;
 }
 
+// What a word beside a change of the system would have to be.
+std::string notOfShift(const std::string& word, char address, const MikroprogFunction& function) {
+  std::string_view instead = "a move is a block of its own";
+  if (function.function == "system-stored")
+    instead = "the values are entered by hand, and a move is a block of its own";
+  if (address == 'S') instead = "the greatest speed is the A of G96, the speed the S of M3 or M4";
+  return fmt::format("nothing in this block takes `{}`: `{}` is {} here; {}", word, function.code(),
+                     function.function == "system-stored" ? function.title : "the end of a shift", instead);
+}
+
 } // namespace
 
 // Words that no function takes. Short form: axes, F and S may be alone.
@@ -166,19 +181,26 @@ Findings addressesNotTaken(const Reading& reading) {
     if (block.line->unread || block.hasUnknownCode()) continue;
     const bool code = std::any_of(block.codes.begin(), block.codes.end(),
                                   [](const Code& one) { return !one.function->addresses.empty(); });
+    // A shift is no move, so what would be short form beside another code is a leftover here.
+    const auto shift = std::find_if(block.codes.begin(), block.codes.end(), [](const Code& one) {
+      return one.function->group == "system" && one.function->addresses.empty();
+    });
     std::map<char, Taken> taken; // by address: the same for all words of one
     for (const std::size_t first : block.line->firsts)
       taken.emplace(block.line->words[first].address, takenBy(block, block.line->words[first].address));
     for (const Word& word : block.line->words) {
       if (word.address == 'G' || word.address == 'M') continue;
       const auto& [refuses, takes] = taken.at(word.address);
-      const bool shortForm = !code && (reading.control.hasAxis(word.address) ||
-                                       std::string_view("FSRIJK").find(word.address) != std::string::npos);
+      const bool shortForm = !code && shift == block.codes.end() &&
+                             (reading.control.hasAxis(word.address) ||
+                              std::string_view("FSRIJK").find(word.address) != std::string::npos);
       if (refuses != nullptr) {
         const MikroprogFunction& function = *refuses;
         out.push_back({word.range, fmt::format("nothing in this block takes `{}`: `{}` has none ({})",
                                                reading.text(word.range), function.code(),
                                                function.notes.empty() ? "" : function.notes.front())});
+      } else if (!takes && !code && shift != block.codes.end()) {
+        out.push_back({word.range, notOfShift(reading.text(word.range), word.address, *shift->function)});
       } else if (!takes && !shortForm) {
         out.push_back(
             {word.range, fmt::format("nothing in this block takes `{}`{}", reading.text(word.range),

@@ -36,6 +36,20 @@ public:
 
   std::vector<bool> reachedFrom(std::size_t at) const { return from({at}, next_); }
 
+  // Blocks that run outside of any subprogram. A call comes back to the block after it; G23 is left out,
+  // since it may store a return (Q7).
+  std::vector<bool> outside() const {
+    std::vector<std::vector<std::size_t>> edges(next_.size());
+    for (std::size_t at = 0; at < reading_.blocks.size(); ++at) {
+      const Block& block = reading_.blocks[at];
+      const auto to = target(at);
+      if (to && !block.does("call") && !block.does("jump-if")) edges[at].push_back(*to);
+      if (!block.does("jump") && !block.does("return") && !block.does("end") && !block.does("leave"))
+        edges[at].push_back(at + 1);
+    }
+    return from({0}, edges);
+  }
+
   // The block that its L names, where it goes there.
   std::optional<std::size_t> target(std::size_t at) const {
     const Block& block = reading_.blocks[at];
@@ -125,6 +139,20 @@ Findings endlessLoops(const Reading& reading) {
                            "loop: it runs for ever; write the condition, or correct L{0}",
                            number)});
   }
+  return out;
+}
+
+Findings strayReturns(const Reading& reading) {
+  Findings out;
+  if (std::none_of(reading.blocks.begin(), reading.blocks.end(),
+                   [](const Block& block) { return block.does("return"); }))
+    return out;
+  const std::vector<bool> outside = Flow(reading).outside();
+  for (std::size_t at = 0; at < reading.blocks.size(); ++at)
+    if (outside[at] && reading.blocks[at].does("return"))
+      out.push_back({reading.blocks[at].line->range,
+                     "the program gets to this M17 without a G26; the control stops with an error there; the "
+                     "end of a program is M30"});
   return out;
 }
 

@@ -221,8 +221,9 @@ private:
     case Flow::Jump: return go(block);
     case Flow::JumpIf: return jumpOn(block);
     case Flow::Call:
-      if (const ir::Word* runs = find(block, 'H'); runs != nullptr && wholeOf(*runs) != 1u)
-        return refuse("G26 with H (Q8)");
+      // H1 is one run or two.
+      if (find(block, 'H') != nullptr)
+        return refuse("whether H of G26 counts all runs or those after the first (Q8)");
       return go(block, Op::CallPlace);
     case Flow::Return: emit(Op::LeavePlace, 0, text("M17 without a call")); return;
     case Flow::Stop: emit(Op::Pause, 0, text(comment())); return;
@@ -234,6 +235,8 @@ private:
         emit(Op::Fault, 0, text("no file"));
         return;
       }
+      if (name->digits.find_first_of("/\\:") != std::string::npos)
+        return refuse("a file outside the folder of the programs");
       emit(Op::Record, flow == Flow::Position ? kNoCell : given(kAccumulator), text(name->digits));
       return;
     }
