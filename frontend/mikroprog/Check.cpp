@@ -2,6 +2,7 @@
 
 #include <iterator>
 #include <map>
+#include <set>
 
 namespace dotek::frontend::mikroprog {
 
@@ -85,6 +86,10 @@ Findings unusableCodes(const Reading& reading) {
 
 Findings missingTargets(const Reading& reading) {
   Findings out;
+  std::set<std::uint64_t> twice; // N of several blocks
+  for (std::size_t i = 0; i < reading.blocks.size(); ++i)
+    if (const auto& number = reading.blocks[i].line->number; number && reading.numbers.at(*number) != i)
+      twice.insert(*number);
   for (const Block& block : reading.blocks) {
     const Word* target = block.line->find('L');
     // A parameter after L is none of this check.
@@ -97,6 +102,10 @@ Findings missingTargets(const Reading& reading) {
       if (!number || !reading.numbers.contains(*number))
         out.push_back({target->range, fmt::format("no block has the number {}; where the jump goes is not "
                                                   "defined",
+                                                  target->value.digits)});
+      else if (twice.contains(*number))
+        out.push_back({target->range, fmt::format("several blocks have the number {}; where the jump goes is "
+                                                  "not defined",
                                                   target->value.digits)});
     }
   }
@@ -151,6 +160,7 @@ void refuse(const Reading& reading, Diagnostics& diagnostics) {
       {"suf-arc-radius", impossibleArcs},
       {"suf-quarter-circle", unequalQuarters},
       {"suf-thread-feed", threadsWithoutFeed},
+      {"suf-feed-unit", feedUnits},
   };
   for (const Check& check : kChecks)
     for (Finding& one : check.find(reading))

@@ -47,6 +47,7 @@ Findings endlessLoops(const Reading& reading);
 Findings impossibleArcs(const Reading& reading);
 Findings unequalQuarters(const Reading& reading);
 Findings threadsWithoutFeed(const Reading& reading);
+Findings feedUnits(const Reading& reading);
 
 // The others of the above as errors, each with the code of its rule.
 void refuse(const Reading& reading, Diagnostics& diagnostics);

@@ -29,12 +29,60 @@ void forget(MotionState& state) {
   state.absolute.reset();
   state.radius.reset();
   state.compensated = false;
+  state.feedValue.reset();
+  state.speed.reset();
+  state.turning.reset();
+  state.direction = 0;
+  state.reversed = false;
+  state.perRevolution.reset();
+  state.constantSpeed.reset();
+  state.coolant.reset();
+  state.shift = nullptr;
+  state.joined = false;
+}
+
+constexpr double kReversal = 5; // s, of G4 after a reversal of the spindle
+
+void enterSpindle(MotionState& state, const Block& block) {
+  const char direction = block.does("spindle-right") ? '3' : block.does("spindle-left") ? '4' : '\0';
+  if (const Word* word = block.line->find('S'); word != nullptr && !block.does("surface-speed")) {
+    state.speed = word->value.number;
+    state.constantSpeed = false; // a new S ends G96
+    if (state.speed == 0.0) state.turning = false;
+  }
+  if (direction != '\0' && state.speed != 0.0) {
+    if (state.direction != 0 && state.direction != direction) {
+      state.reversed = true;
+      state.waited = 0;
+    }
+    state.direction = direction;
+    state.turning = true;
+  }
+  if (block.does("spindle-off")) state.turning = false;
+  if (block.does("surface-speed")) state.constantSpeed = true;
+  if (block.does("reference")) state.constantSpeed = false;
+  if (block.does("dwell")) {
+    const Word* seconds = block.line->find('E');
+    state.waited += seconds != nullptr ? seconds->value.number.value_or(kReversal) : 0;
+    if (state.waited >= kReversal) state.reversed = false;
+  }
 }
 
 // What the codes of the block put in force.
 void enter(MotionState& state, const Block& block) {
   if (block.hasUnknownCode()) forget(state);
-  if (block.line->find('F') != nullptr) state.feed = true;
+  if (const Word* feed = block.line->find('F'); feed != nullptr) {
+    state.feed = true;
+    state.feedValue = feed->value.number;
+  }
+  enterSpindle(state, block);
+  if (block.does("feed-per-minute")) state.perRevolution = false;
+  if (block.does("feed-per-revolution")) state.perRevolution = true;
+  if (block.does("coolant-on")) state.coolant = true;
+  if (block.does("coolant-off")) state.coolant = false;
+  if (block.does("join-on")) state.joined = true;
+  if (block.does("join-off")) state.joined = false;
+  if (block.does("system-off")) state.shift = nullptr;
   if (block.does("plane-xy")) state.plane = "XY";
   if (block.does("plane-zx")) state.plane = "XZ";
   if (block.does("plane-yz")) state.plane = "YZ";
@@ -48,6 +96,9 @@ void enter(MotionState& state, const Block& block) {
   if (block.does("compensation-left") || block.does("compensation-right")) state.compensated = true;
   for (const Code& code : block.codes)
     if (code.function != nullptr && code.function->group == "motion") state.motion = code.function->function;
+  for (const Code& code : block.codes)
+    if (code.function != nullptr && code.function->group == "system" && !block.does("system-off"))
+      state.shift = code.function;
 }
 
 // Where the tool is after the block.
@@ -78,6 +129,16 @@ std::optional<double> MotionState::travel(const Line& line, char axis,
   if (index == std::string_view::npos) return std::nullopt;
   const std::optional<double> to = targetOf(*this, line, index, control);
   return to && at[index] ? std::optional(*to - *at[index]) : std::nullopt;
+}
+
+bool hasAxisWord(const Block& block, const stdlib::MikroprogControl& control) {
+  return std::any_of(control.axes.begin(), control.axes.end(),
+                     [&](char axis) { return block.line->find(axis) != nullptr; });
+}
+
+bool isCut(const Block& block, const MotionState& state, const stdlib::MikroprogControl& control) {
+  if (block.does("cycle")) return true;
+  return state.motion != "rapid" && hasAxisWord(block, control) && onlyMoves(block);
 }
 
 bool onlyMoves(const Block& block) {

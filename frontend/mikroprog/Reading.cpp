@@ -23,10 +23,15 @@ std::optional<std::uint32_t> wholeOf(const Word* word) {
 }
 
 std::optional<std::string_view> profileOf(const Program& program) {
-  const bool mill = std::any_of(program.lines.begin(), program.lines.end(), [](const Line& line) {
-    return line.find('Y') != nullptr || line.find('J') != nullptr;
-  });
-  return mill ? std::optional(stdlib::kMikroprogMill) : std::nullopt;
+  bool mill = false, xy = false, xz = false; // planes
+  for (const Line& line : program.lines) {
+    mill = mill || line.find('Y') != nullptr || line.find('J') != nullptr;
+    for (const Word& word : line.words) {
+      xy = xy || (word.address == 'G' && word.value.number == 17.0);
+      xz = xz || (word.address == 'G' && word.value.number == 18.0);
+    }
+  }
+  return mill || (xy && !xz) ? std::optional(stdlib::kMikroprogMill) : std::nullopt;
 }
 
 Reading::Reading(const Program& program_, const stdlib::MikroprogControl& control_, const SourceMap& sources_)

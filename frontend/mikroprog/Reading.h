@@ -45,8 +45,8 @@ struct Reading {
   std::string text(SourceRange range) const { return sources.textUtf8(range); }
 };
 
-// The profile that a program says by itself: Y or J in a block is for the mill. nullopt: it may be for
-// either.
+// The profile that a program says by itself: Y or J in a block is for the mill, G17 without G18 as
+// well. nullopt: it may be for either.
 std::optional<std::string_view> profileOf(const Program& program);
 
 // The value of a word where it is a whole number from 0 to 999,999,999. nullopt: there is no word, or a

@@ -3,11 +3,20 @@
 namespace dotek::lint::rule {
 namespace {
 
+// A G92 that no G98 follows.
+void checkProgram(const mikroprog::Reading& reading, Report& report) {
+  bool back = false;
+  for (auto block = reading.blocks.rbegin(); block != reading.blocks.rend(); ++block) {
+    if (block->line->unread) continue;
+    back = back || block->does("reference");
+    if (block->does("set-position") && !back)
+      report.at(block->line->range, "G92 loses the old coordinate system; only G98 brings it back");
+  }
+}
+
 void check(const Project& project, Report& report) {
-  forEachSufBlock(project, [&](const mikroprog::Reading&, const mikroprog::Block& block) {
-    if (block.does("set-position"))
-      report.at(block.line->range, "G92 loses the old coordinate system; only G98 brings it back");
-  });
+  for (const mikroprog::Reading* reading : project.sufPrograms)
+    checkProgram(*reading, report);
 }
 
 } // namespace

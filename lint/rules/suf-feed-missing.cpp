@@ -5,7 +5,11 @@
 namespace dotek::lint::rule {
 namespace {
 
-// The first feed move without one.
+bool isG78(const mikroprog::Code& code) {
+  return code.function != nullptr && code.function->code() == "G78";
+}
+
+// The first feed move or cycle without one.
 void checkProgram(const mikroprog::Reading& reading, Report& report) {
   bool feeds = false; // the motion in force needs a feed
   for (const mikroprog::Block& block : reading.blocks) {
@@ -21,8 +25,11 @@ void checkProgram(const mikroprog::Reading& reading, Report& report) {
       return code.function != nullptr && !code.function->addresses.empty() &&
              code.function->group != "motion";
     });
-    if (!feeds || !axes || other) continue;
-    report.at(line.range, "no feed was given before this feed move; the control begins with F0");
+    // G78 has a rule of its own.
+    const bool cycle = block.does("cycle") && std::none_of(block.codes.begin(), block.codes.end(), isG78);
+    if (!cycle && (!feeds || !axes || other)) continue;
+    report.at(line.range, "no feed was given before this {}; the control begins with F0",
+              cycle ? "cycle" : "feed move");
     return;
   }
 }
