@@ -235,6 +235,9 @@ std::optional<std::string> otherFormat(View bytes) {
     if (bytes.starts_with(magic.begin)) return std::string(magic.name);
   if (bytes.starts_with("BM") && bytes.size() > 10 && bytes.substr(6, 4).find('\0') != View::npos)
     return "an image";
+  if (bytes.substr(0, 200).find("/namespace/nc/format/compact-nci") != View::npos &&
+      bytes.find('\0') != View::npos)
+    return "a job of Autodesk's CAM, which `dotek run-post POST.cps JOB.cnc` runs";
   View text = bytes;
   while (!text.empty() &&
          (trimmedText(text).size() < text.size() || View("\r\n").find(text.front()) != View::npos)) {

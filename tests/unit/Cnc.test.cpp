@@ -261,6 +261,14 @@ TEST_CASE("cnc: another version is read, and said") {
   CHECK(holds(result.err, "[cnc-version]"));
 }
 
+TEST_CASE("cnc: other commands name the command that takes such a job") {
+  const TestFolder folder("dotek-cnc-kind");
+  folder.write("job.cnc", drilled().bytes());
+  const CommandResult result = runDotek({"lint", "job.cnc"}, folder.path());
+  CHECK_MESSAGE(holds(result.out, "(a job of Autodesk's CAM, which `dotek run-post POST.cps JOB.cnc` runs)"),
+                result.out);
+}
+
 TEST_CASE("cnc: a file that is cut off or damaged anywhere is read or refused, in its size") {
   CncWriter whole = drilled();
   whole.rapid(0, 0, 5).cycle("probing-x").number("depth", 5).linear(0, 0, 0, 1, 2).cycleEnd().end();
