@@ -147,12 +147,16 @@ bool onlyMoves(const Block& block) {
   });
 }
 
-void walkMotion(const Reading& reading,
-                const std::function<void(const Block& block, const MotionState& state)>& visit) {
+namespace {
+
+// By block; nothing for one that was not read.
+std::vector<std::optional<MotionState>> statesOf(const Reading& reading) {
   std::set<double> targets; // N numbers that a jump names
   for (const Line& line : reading.program.lines)
     if (const Word* target = line.find('L'); target != nullptr && target->value.number)
       targets.insert(*target->value.number);
+  std::vector<std::optional<MotionState>> out;
+  out.reserve(reading.blocks.size());
   MotionState state;
   if (reading.control.isDiameter('X')) state.plane = "XZ"; // of a lathe, from the start
   for (const Block& block : reading.blocks) {
@@ -160,12 +164,27 @@ void walkMotion(const Reading& reading,
     if (line.number && targets.contains(static_cast<double>(*line.number))) forget(state);
     if (line.unread) {
       forget(state);
+      out.emplace_back();
       continue;
     }
     enter(state, block);
-    visit(block, state);
+    out.emplace_back(state);
     leave(state, block, reading.control);
   }
+  return out;
+}
+
+} // namespace
+
+void walkMotion(const Reading& reading,
+                const std::function<void(const Block& block, const MotionState& state)>& visit) {
+  std::call_once(reading.motion.once, [&] {
+    reading.motion.states =
+        std::make_shared<const std::vector<std::optional<MotionState>>>(statesOf(reading));
+  });
+  const std::vector<std::optional<MotionState>>& states = *reading.motion.states;
+  for (std::size_t i = 0; i < states.size(); ++i)
+    if (states[i]) visit(reading.blocks[i], *states[i]);
 }
 
 } // namespace dotek::frontend::mikroprog

@@ -8,6 +8,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -31,6 +33,14 @@ struct Block {
   bool hasUnknownCode() const;
 };
 
+struct MotionState;
+
+// What walkMotion has found, once it was asked for: many rules look at the same program.
+struct MotionKept {
+  std::once_flag once;
+  std::shared_ptr<const std::vector<std::optional<MotionState>>> states;
+};
+
 struct Reading {
   // All three outlive the reading.
   Reading(const Program& program, const stdlib::MikroprogControl& control, const SourceMap& sources);
@@ -41,6 +51,8 @@ struct Reading {
   std::vector<Block> blocks;                    // one a line, unread ones too
   std::map<std::uint64_t, std::size_t> numbers; // N to the first block that has it
   std::optional<std::size_t> end;               // the first block that ends the main program
+
+  mutable MotionKept motion;
 
   std::string text(SourceRange range) const { return sources.textUtf8(range); }
 };
