@@ -38,6 +38,19 @@ std::optional<std::size_t> bodyAt(const Bodies& bodies, std::size_t at) {
   return std::nullopt;
 }
 
+// A jump from within `from` to a block of no subprogram: one after the first M17 of its own, or one from
+// which the program comes to its end, where no return is left to be wrong.
+bool isHarmless(const mikroprog::Reading& reading, std::optional<std::size_t> from, std::size_t to) {
+  if (!from) return false;
+  if (reading.end && to > *reading.end) return true;
+  for (std::size_t at = to; at < reading.blocks.size(); ++at) {
+    const mikroprog::Block& block = reading.blocks[at];
+    if (block.does("end") || block.does("leave")) return true;
+    if (block.line->unread || block.line->find('L') != nullptr || block.does("return")) return false;
+  }
+  return false;
+}
+
 void checkProgram(const mikroprog::Reading& reading, Report& report) {
   const Bodies bodies = bodiesOf(reading);
   if (bodies.empty()) return;
@@ -56,7 +69,9 @@ void checkProgram(const mikroprog::Reading& reading, Report& report) {
                     "this call is number {} within calls; the screen of the control shows {}, and more "
                     "are not known to work (Q17)",
                     deep, kLevels);
-      } else if (round == 0 && !block.does("run-program") && from != bodyAt(bodies, *to)) {
+      } else if (const auto into = bodyAt(bodies, *to); round == 0 && !block.does("run-program") &&
+                                                        from != into &&
+                                                        (into || !isHarmless(reading, from, *to))) {
         report.at(block.line->range,
                   "a jump {} a subprogram; what becomes of its return is not known (Q7): write G26, or "
                   "leave by M17",
