@@ -6,8 +6,9 @@ namespace dotek::cli {
 void addRunPost(CLI::App& app, Raw& raw) {
   CLI::App* run =
       app.add_subcommand("run-post", "run a post of Fusion on a job and print the program that it writes");
-  run->add_option("POST", raw.inputs,
-                  "the post (.cps), then the job (.toml, or .cnc of Autodesk); `dotek new job --from POST` begins one")
+  run->add_option(
+         "POST", raw.inputs,
+         "the post (.cps), then the job (.toml, or .cnc of Autodesk); `dotek new job --from POST` begins one")
       ->expected(1, 2);
   run->add_option("--matrix", raw.matrix, "instead of a job: each cycle of a kind, probing or drilling")
       ->type_name("KIND");
