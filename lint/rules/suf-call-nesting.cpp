@@ -1,8 +1,10 @@
 #include "lint/SufPrograms.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <optional>
+#include <vector>
 
 namespace dotek::lint::rule {
 namespace {
@@ -15,45 +17,45 @@ std::optional<std::size_t> targetOf(const mikroprog::Reading& reading, const mik
   return found == reading.numbers.end() ? std::nullopt : std::optional(found->second);
 }
 
-// Subprograms: the first block of each and its M17.
+// Subprograms: the first block of each and its M17, or the last block of the text.
 using Bodies = std::map<std::size_t, std::size_t>;
 
 Bodies bodiesOf(const mikroprog::Reading& reading) {
+  std::vector<std::size_t> ends(reading.blocks.size());
+  for (std::size_t at = ends.size(); at-- > 0;)
+    ends[at] = at + 1 == ends.size() || reading.blocks[at].does("return") ? at : ends[at + 1];
   Bodies out;
   for (const mikroprog::Block& block : reading.blocks) {
     const auto first = block.does("call") ? targetOf(reading, block) : std::nullopt;
-    if (!first || out.contains(*first) || (reading.end && *first < *reading.end)) continue;
-    std::size_t last = *first;
-    while (last + 1 < reading.blocks.size() && !reading.blocks[last].does("return"))
-      ++last;
-    out.emplace(*first, last);
+    if (first && (!reading.end || *first >= *reading.end)) out.emplace(*first, ends[*first]);
   }
   return out;
 }
 
-// The subprogram that the block is in: its first block.
+// The subprogram that the block is in, the innermost: its first block.
 std::optional<std::size_t> bodyAt(const Bodies& bodies, std::size_t at) {
-  for (const auto& [first, last] : bodies)
-    if (at >= first && at <= last) return first;
-  return std::nullopt;
+  const auto after = bodies.upper_bound(at);
+  if (after == bodies.begin() || std::prev(after)->second < at) return std::nullopt;
+  return std::prev(after)->first;
 }
 
-// A jump from within `from` to a block of no subprogram: one after the first M17 of its own, or one from
-// which the program comes to its end, where no return is left to be wrong.
-bool isHarmless(const mikroprog::Reading& reading, std::optional<std::size_t> from, std::size_t to) {
-  if (!from) return false;
-  if (reading.end && to > *reading.end) return true;
-  for (std::size_t at = to; at < reading.blocks.size(); ++at) {
+// By block: a jump from a subprogram to it leaves no return that could be wrong. It is after the end of the
+// main program, so a part of the subprogram beyond its first M17; or the program comes to its end from there.
+std::vector<bool> harmless(const mikroprog::Reading& reading) {
+  std::vector<bool> out(reading.blocks.size());
+  for (std::size_t at = out.size(); at-- > 0;) {
     const mikroprog::Block& block = reading.blocks[at];
-    if (block.does("end") || block.does("leave")) return true;
-    if (block.line->unread || block.line->find('L') != nullptr || block.does("return")) return false;
+    const bool stops = block.line->unread || block.line->find('L') != nullptr || block.does("return");
+    out[at] = (reading.end && at > *reading.end) || block.does("end") || block.does("leave") ||
+              (!stops && at + 1 < out.size() && (!reading.end || at + 1 <= *reading.end) && out[at + 1]);
   }
-  return false;
+  return out;
 }
 
 void checkProgram(const mikroprog::Reading& reading, Report& report) {
   const Bodies bodies = bodiesOf(reading);
   if (bodies.empty()) return;
+  const std::vector<bool> leavesNone = harmless(reading);
   std::map<std::size_t, std::size_t> level; // of subprograms, the deepest
   for (std::size_t round = 0; round <= kLevels; ++round)
     for (std::size_t at = 0; at < reading.blocks.size(); ++at) {
@@ -70,8 +72,7 @@ void checkProgram(const mikroprog::Reading& reading, Report& report) {
                     "are not known to work (Q17)",
                     deep, kLevels);
       } else if (const auto into = bodyAt(bodies, *to); round == 0 && !block.does("run-program") &&
-                                                        from != into &&
-                                                        (into || !isHarmless(reading, from, *to))) {
+                                                        from != into && (into || !from || !leavesNone[*to])) {
         report.at(block.line->range,
                   "a jump {} a subprogram; what becomes of its return is not known (Q7): write G26, or "
                   "leave by M17",
