@@ -236,9 +236,9 @@ void addTranslation(CLI::App& app, Raw& raw, const std::string& to) {
              "of a file of the cycle language: common variable that gets a result of the cycle",
              "NAME=#NUMBER");
   app.add_option("--calls", raw.calls,
-                 "of a file of the cycle language: a cycle that it calls is in the place of the call, or a "
-                 "program of the same file")
-      ->check(CLI::IsMember({"inline", "subprogram"}));
+                 "of a file of the cycle language: a cycle that it calls is in the place of the call, a program "
+                 "of the same file, or a call of the macro set where that has it")
+      ->check(CLI::IsMember({"inline", "subprogram", "vendor"}));
 }
 
 void fillTranslation(const Raw& raw, targets::TranslationOptions& options) {
@@ -248,7 +248,8 @@ void fillTranslation(const Raw& raw, targets::TranslationOptions& options) {
   if (!raw.probeMacros.empty()) options.probeMacros = raw.probeMacros;
   options.datum = raw.datum;
   options.results = pairsOf("--result", raw.results);
-  if (raw.calls == targets::callsText(targets::Calls::Subprogram)) options.calls = targets::Calls::Subprogram;
+  for (const targets::Calls calls : {targets::Calls::Subprogram, targets::Calls::Vendor})
+    if (raw.calls == targets::callsText(calls)) options.calls = calls;
 }
 
 void addSource(CLI::App& app, Raw& raw) {

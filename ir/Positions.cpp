@@ -24,7 +24,10 @@ struct Fact {
   std::array<std::uint32_t, 3> travels{};
   std::array<std::optional<VariableId>, 3> copies; // variables that hold the coordinate of the place
   ExpressionPtr system;                            // active work system; null pointer: not known
+  std::map<VariableId, AxisPosition> taken;        // what was known where these took the place
 };
+
+using Places = std::map<VariableId, Axis>;
 
 void forget(AxisPosition& axis) {
   axis = {State::Unknown, nullptr, ProbePoint::Centre};
@@ -44,6 +47,7 @@ template <class Test> bool anyNode(const ExpressionPtr& expression, const Test& 
 template <class Test> void forgetValues(Fact& fact, const Test& test) {
   for (AxisPosition& axis : fact.position)
     if (anyNode(axis.value, test)) forget(axis);
+  std::erase_if(fact.taken, [&](const auto& one) { return anyNode(one.second.value, test); });
   if (anyNode(fact.system, test)) fact.system = nullptr;
 }
 
@@ -130,29 +134,56 @@ bool isPlace(const ExpressionPtr& value, const AxisPosition& axis, const std::op
          equal(both->right, axis.value);
 }
 
-Fact behind(const CycleStatement& statement, Fact fact, const Starts& starts) {
+// What is known of the place that the coordinate is of; nullptr: nothing.
+const AxisPosition* placeOf(const Coordinate& target, const Fact& fact,
+                            const std::optional<VariableId>& start, const AxisPosition& entry) {
+  const auto* use = std::get_if<VariableUse>(&target.value->node);
+  if (target.frame != Frame::Work || target.system || use == nullptr) return nullptr;
+  if (start && use->variable == *start) return &entry;
+  const auto found = fact.taken.find(use->variable);
+  return found == fact.taken.end() ? nullptr : &found->second;
+}
+
+// `places` as of positions(); nullptr: there are none.
+Fact behind(const CycleStatement& statement, Fact fact, const Starts& starts, const Places* places) {
   const Position at = fact.position;
+  // An offset that changes moves the coordinates of the place where the probe is.
+  const auto shift = [&](Axis axis) {
+    AxisPosition& position = fact.position[indexOf(axis)];
+    if (places == nullptr || position.state != State::Start) forget(position);
+    std::erase_if(fact.taken, [&](const auto& one) {
+      return places->at(one.first) == axis && one.second.state != State::Start;
+    });
+  };
   match(
       statement,
       [&](const Move& node) {
-        for (const Axis axis : kAxes)
-          if (const auto& target = node.axes[indexOf(axis)])
-            moveAxis(fact, indexOf(axis), *target, node.point);
+        const AxisPosition entry{State::Start, constant(0), ProbePoint::Centre};
+        for (const Axis axis : kAxes) {
+          const auto& target = node.axes[indexOf(axis)];
+          if (!target) continue;
+          const AxisPosition* const place =
+              places == nullptr ? nullptr : placeOf(*target, fact, starts[indexOf(axis)], entry);
+          moveAxis(fact, indexOf(axis), *target, node.point);
+          if (place != nullptr) fact.position[indexOf(axis)] = *place;
+        }
       },
       [&](const Measure& node) {
-        // An offset that changes moves the coordinates of the place where the probe is.
         if (node.setting && mayBeActive(node.setting->system, fact))
           for (const Axis axis : kAxes)
-            if (node.setting->nominal[indexOf(axis)]) forget(fact.position[indexOf(axis)]);
+            if (node.setting->nominal[indexOf(axis)]) shift(axis);
         forgetValues(fact, readsResult);
       },
       [&](const CallCycle& node) {
         const bool active = node.setting && mayBeActive(node.setting->system, fact);
         for (const Axis axis : kAxes) {
           const bool tool = node.setsTool && axis == Axis::Z; // its length may be the one in force
-          if (!node.returns || tool || (active && node.setting->axes[indexOf(axis)]))
+          if (!node.returns || tool)
             forget(fact.position[indexOf(axis)]);
+          else if (active && node.setting->axes[indexOf(axis)])
+            shift(axis);
         }
+        if (node.setsTool) fact.taken.clear();
         forgetValues(fact, readsResult);
       },
       [&](const SetMode& node) {
@@ -163,8 +194,12 @@ Fact behind(const CycleStatement& statement, Fact fact, const Starts& starts) {
       },
       [&](const Assign& node) {
         const Position before = fact.position;
+        const auto takes = places == nullptr ? Places::const_iterator() : places->find(node.variable);
+        const bool takesPlace = places != nullptr && takes != places->end();
         for (std::size_t i = 0; i < before.size(); ++i) {
-          if (isPlace(node.value, before[i], starts[i]))
+          if (takesPlace && indexOf(takes->second) == i && before[i].state != State::Unknown)
+            fact.copies[i] = node.variable;
+          else if (isPlace(node.value, before[i], starts[i]))
             fact.copies[i] = node.variable;
           else if (fact.copies[i] == node.variable)
             fact.copies[i].reset();
@@ -176,6 +211,10 @@ Fact behind(const CycleStatement& statement, Fact fact, const Starts& starts) {
         for (std::size_t i = 0; i < before.size(); ++i)
           if (fact.position[i].state == State::Unknown && before[i].state != State::Unknown && fact.copies[i])
             fact.position[i] = {State::Work, variable(*fact.copies[i]), before[i].point};
+        if (places == nullptr) return;
+        fact.taken.erase(node.variable);
+        if (takesPlace && fact.position[indexOf(takes->second)].state != State::Unknown)
+          fact.taken[node.variable] = fact.position[indexOf(takes->second)];
       },
       [&](const Store& node) {
         // A variable of the machine: an offset, perhaps the one in force.
@@ -210,6 +249,12 @@ bool meet(Fact& into, const Fact& other) {
     forget(axis);
     changed = true;
   }
+  changed = std::erase_if(into.taken,
+                          [&](const auto& one) {
+                            const auto found = other.taken.find(one.first);
+                            return found == other.taken.end() || !sameAxis(one.second, found->second);
+                          }) > 0 ||
+            changed;
   if (into.system && !equal(into.system, other.system)) {
     into.system = nullptr;
     changed = true;
@@ -219,14 +264,18 @@ bool meet(Fact& into, const Fact& other) {
 
 } // namespace
 
-std::vector<Position> positions(const Cycle& cycle) {
+namespace {
+
+std::vector<Position> positionsOf(const Cycle& cycle, const Places* places) {
   const Starts starts = startsOf(cycle);
   Fact entry;
   for (AxisPosition& axis : entry.position)
     axis = {State::Start, constant(0), ProbePoint::Centre};
   const auto facts = factsBefore(
       cycle.body, std::move(entry),
-      [&](std::size_t at, std::size_t, const Fact& fact) { return behind(cycle.body[at], fact, starts); },
+      [&](std::size_t at, std::size_t, const Fact& fact) {
+        return behind(cycle.body[at], fact, starts, places);
+      },
       meet);
   std::vector<Position> out;
   out.reserve(facts.size());
@@ -241,6 +290,16 @@ std::vector<Position> positions(const Cycle& cycle) {
     out.push_back(std::move(position));
   }
   return out;
+}
+
+} // namespace
+
+std::vector<Position> positions(const Cycle& cycle) {
+  return positionsOf(cycle, nullptr);
+}
+
+std::vector<Position> positions(const Cycle& cycle, const std::map<VariableId, Axis>& places) {
+  return positionsOf(cycle, &places);
 }
 
 std::vector<const CycleStatement*> lastMeasurements(const Cycle& cycle) {

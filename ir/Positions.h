@@ -4,6 +4,7 @@
 #include "ir/Cycle.h"
 
 #include <array>
+#include <map>
 #include <vector>
 
 namespace dotek::ir {
@@ -26,6 +27,10 @@ using Position = std::array<AxisPosition, 3>; // by Axis
 // coordinate in the machine's or the retract frame, in another work system, of the contact point or read from
 // a machine variable makes its axis Unknown.
 std::vector<Position> positions(const Cycle& cycle);
+// Where locals take the place of the probe, by axis, whatever their assignments say: of a cycle of which they
+// are not written yet. A move to such a coordinate, or to a host input start_x, start_y, start_z, leads back
+// to what was known there, and a Start position is a place that outlasts a change of its coordinates.
+std::vector<Position> positions(const Cycle& cycle, const std::map<VariableId, Axis>& places);
 
 // The last Measure or CallCycle before each statement of the body, on every path; nullptr: none, paths
 // disagree, or an opaque block, which may measure, is between. Points into `cycle.body`.

@@ -221,7 +221,7 @@ std::optional<LoweredCycle> Compilation::lowerFile(const std::string& path, cons
     takeLiterals();
     if (loadSettings(source) == nullptr) return std::nullopt;
   }
-  std::optional<frontend::cycle::Lowered> lowered = lowerCycleFile(path, session_, programLevels_);
+  std::optional<frontend::cycle::Lowered> lowered = lowerCycleFile(path, session_, calls_);
   if (!lowered) return std::nullopt;
   LoweredCycle out;
   out.cycle = std::move(lowered->cycle);

@@ -5,6 +5,7 @@
 #include "frontend/gibbs/Ast.h"
 #include "frontend/macrob/Ast.h"
 #include "ir/Program.h"
+#include "project/CallsAs.h"
 #include "project/CycleFolder.h"
 #include "project/InputKind.h"
 #include "project/Lowering.h"
@@ -37,9 +38,8 @@ public:
   // Under which settings cycles are lowered; reads the Prog of the command line. nullptr: a flag, the Prog or
   // a data file has a defect, reported.
   LoweringInputs* load(const SourceOptions& source, const std::string& control);
-  // From now on calls in files of the cycle language that move the probe are calls of programs, so many
-  // levels deep; 0: the called cycle is in the place of its call.
-  void callPrograms(std::uint32_t levels) { programLevels_ = levels; }
+  // What calls in files of the cycle language become from now on.
+  void callAs(const CallsAs& calls) { calls_ = calls; }
   // Before it, where files of the cycle language are among the inputs.
   void takeLiterals() { sets_ = SetTexts::Literals; }
   // Without the controls and before the Prog, for who runs a cycle instead of lowering it; then the Prog.
@@ -97,7 +97,7 @@ private:
   std::deque<frontend::macrob::File> programs_;
   std::map<const CycleFolder*, std::string> cycleFiles_;
   std::set<std::string> usedSets_;
-  std::uint32_t programLevels_ = 0;
+  CallsAs calls_;
 };
 
 } // namespace dotek::project

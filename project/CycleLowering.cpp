@@ -4,7 +4,9 @@
 #include "frontend/cycle/Link.h"
 #include "ir/Verify.h"
 #include "project/CycleFiles.h"
+#include "project/MacroCycles.h"
 #include "support/messages/Commands.h"
+#include "support/messages/Cycle.h"
 
 #include <filesystem>
 #include <set>
@@ -28,7 +30,8 @@ bool isCycleFile(const std::string& path, Session& session) {
 namespace {
 
 // Of a cycle in which check() found no error. What it calls has to be sound as well; it is checked once.
-std::optional<cycle::Lowered> lowered(const cycle::File& file, Session& session, std::uint32_t levels = 0) {
+std::optional<cycle::Lowered> lowered(const cycle::File& file, Session& session,
+                                      const cycle::CallForms& forms = {}) {
   Diagnostics& diagnostics = session.diagnostics();
   std::set<const cycle::File*> seen = {&file};
   const auto checkCalled = [&](const auto& self, const cycle::File& one) -> void {
@@ -40,7 +43,7 @@ std::optional<cycle::Lowered> lowered(const cycle::File& file, Session& session,
   };
   checkCalled(checkCalled, file);
   if (diagnostics.hasErrors()) return std::nullopt;
-  std::optional<cycle::Lowered> out = cycle::lower(file, session.sources(), diagnostics, levels);
+  std::optional<cycle::Lowered> out = cycle::lower(file, session.sources(), diagnostics, forms);
   if (!out || diagnostics.hasErrors()) return std::nullopt;
   const auto verify = [&](const ir::Cycle& one) {
     for (const ir::Violation& violation : ir::verify(one))
@@ -57,11 +60,17 @@ std::optional<cycle::Lowered> lowered(const cycle::File& file, Session& session,
 } // namespace
 
 std::optional<cycle::Lowered> lowerCycleFile(const std::string& path, Session& session,
-                                             std::uint32_t programLevels) {
+                                             const CallsAs& calls) {
   CycleFiles files(session);
   const cycle::File* file = files.check(path);
   if (file == nullptr || file->hasErrorNodes || session.diagnostics().hasErrors()) return std::nullopt;
-  return lowered(*file, session, programLevels);
+  cycle::CallForms forms{calls.programLevels, {}};
+  if (calls.macros != nullptr) forms.macros = macroCycles(*calls.macros, files);
+  std::optional<cycle::Lowered> out = lowered(*file, session, forms);
+  if (out && calls.macros != nullptr && out->macroCalls == 0)
+    session.diagnostics().report<diag::CallsWithoutMacro>(out->cycle.range, out->cycle.name,
+                                                          calls.macros->title);
+  return out;
 }
 
 std::optional<FileId> checkCycleFile(const std::string& path, CycleFiles& files, Session& session) {

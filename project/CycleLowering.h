@@ -2,6 +2,7 @@
 #pragma once
 
 #include "frontend/cycle/Lower.h"
+#include "project/CallsAs.h"
 #include "project/CycleFiles.h"
 #include "project/Session.h"
 
@@ -14,10 +15,9 @@ namespace dotek::project {
 // A file of the cycle language. Nothing is reported; a folder, or what cannot be read, is none.
 bool isCycleFile(const std::string& path, Session& session);
 
-// The cycle of a file with those that it calls, which lie beside it; `programLevels` as of
-// frontend::cycle::lower(). nullopt: it has a defect, reported.
+// The cycle of a file with those that it calls, which lie beside it. nullopt: it has a defect, reported.
 std::optional<frontend::cycle::Lowered> lowerCycleFile(const std::string& path, Session& session,
-                                                       std::uint32_t programLevels = 0);
+                                                       const CallsAs& calls = {});
 
 // Reports all that is wrong with a cycle, whatever its values are: its mistakes and, where it has none, what
 // no command can run or write. The file; nothing where it cannot be read.

@@ -88,6 +88,13 @@ std::optional<ir::Axis> axisOf(const MacroSignature& signature) {
   return found == signature.arguments.end() ? std::nullopt : std::optional(found->axis);
 }
 
+std::string libraryCycle(const MacroSignature& signature) {
+  std::string out = "measure_" + std::string(intentName(signature.intent));
+  std::replace(out.begin(), out.end(), '-', '_');
+  if (const auto axis = axisOf(signature)) out += std::string("_") + "xyz"[ir::indexOf(*axis)];
+  return out;
+}
+
 std::string parameterName(const MacroArgument& argument) {
   if (argument.role == ArgumentRole::Unstated)
     return std::string("letter ") + static_cast<char>(argument.letter - 'A' + 'a');

@@ -23,6 +23,10 @@ CycleFacts cycleFacts(const MacroSignature& signature);
 // The axis along which it measures, of an intent with a signature for each axis; nullopt: it has one for all.
 std::optional<ir::Axis> axisOf(const MacroSignature& signature);
 
+// Name of the cycle of the library that says what the program does, if there is one: what it measures, after
+// "measure", and the axis of an intent with a signature for each axis: "measure_bore", "measure_web_x".
+std::string libraryCycle(const MacroSignature& signature);
+
 // Name of the parameter that the argument fills, its axis included: "target x", "depth". Of a letter whose
 // meaning is in no source: "letter k".
 std::string parameterName(const MacroArgument& argument);

@@ -27,6 +27,7 @@ using namespace project; // NOLINT(google-build-using-namespace)
 enum class Calls : std::uint8_t {
   Inline,     // the called cycle in its place
   Subprogram, // a program of the same file
+  Vendor,     // a call of the macro set where it has the cycle, else in its place
 };
 
 // What a translation is, for who writes it and for who compares it with its source.

@@ -61,7 +61,7 @@ std::string targetNames() {
 }
 
 std::string_view callsText(Calls calls) {
-  constexpr std::string_view kTexts[] = {"inline", "subprogram"};
+  constexpr std::string_view kTexts[] = {"inline", "subprogram", "vendor"};
   return kTexts[static_cast<std::size_t>(calls)];
 }
 
@@ -74,7 +74,7 @@ void checkTargetOptions(const Target& target, const ConvertOptions& options, Dia
                          {TargetFlag::WholePost, options.wholePost, "--whole-post"},
                          {TargetFlag::Helpers, options.helpersApart, "--helpers"},
                          {TargetFlag::Result, !options.results.empty(), "--result"},
-                         {TargetFlag::Calls, options.calls != Calls::Inline, "--calls subprogram"}};
+                         {TargetFlag::Calls, options.calls != Calls::Inline, "--calls"}};
   refuse(target, options.to, flags, diagnostics);
   checkDatum(target, options.to, options.datum, diagnostics);
   if (target.checkConvert != nullptr) target.checkConvert(options, diagnostics);
@@ -105,7 +105,7 @@ void checkTargetOptions(const Target& target, const VerifyOptions& options, Diag
                          {TargetFlag::DefaultsUse, options.useDefaults, "--defaults use"},
                          {TargetFlag::ProbePower, options.switchProbe, "--probe-power macro"},
                          {TargetFlag::Result, !options.results.empty(), "--result"},
-                         {TargetFlag::Calls, options.calls != Calls::Inline, "--calls subprogram"}};
+                         {TargetFlag::Calls, options.calls != Calls::Inline, "--calls"}};
   refuse(target, options.to, flags, diagnostics);
   checkDatum(target, options.to, options.datum, diagnostics);
 }

@@ -6,6 +6,7 @@
 #include "verify/CompareParts.h"
 #include "verify/Exactness.h"
 #include "verify/JoinedCalls.h"
+#include "verify/JoinedTouches.h"
 #include "verify/PathPieces.h"
 
 #include <algorithm>
@@ -420,9 +421,12 @@ bool runsAlike(const Record& one, const Record& other, const CompareRules& rules
 
 std::vector<Difference> compare(const Record& source, const Record& target, const CompareRules& wanted) {
   const CompareRules rules = asExactAs(source, wanted);
-  if (!rules.sameAlarmNumbers && !rules.sameProgram && !rules.atMeasures)
+  if (!rules.sameAlarmNumbers && !rules.sameProgram && !rules.atMeasures) {
     if (const std::optional<Record> joined = joinedCalls(source, target, rules.tolerance))
       return Comparison(source, *joined, rules).run();
+    if (const std::optional<Record> joined = joinedTouches(source, target, rules.tolerance))
+      return Comparison(*joined, target, rules).run();
+  }
   return Comparison(source, target, rules).run();
 }
 

@@ -270,6 +270,10 @@ private:
     say("THE CALLER PROVIDES, NOT CHECKED: " + unchecked);
     if (!state_.macros.needs.empty() && callsMacros(state_.cycle))
       say("SET BEFORE THE FIRST CALL: " + state_.macros.needs);
+    if (const auto ball = state_.findHost("tool_radius");
+        ball && state_.isArgument(*ball) && callsMacros(state_.cycle))
+      say("TOOL_RADIUS IS THE CALIBRATED RADIUS THAT THE MACROS MEASURE WITH" +
+          (state_.macros.probing.radiusX ? fmt::format(", IN #{}", *state_.macros.probing.radiusX) : ""));
     if (const std::string read = readFromOutside(); !read.empty())
       say("READ HERE AND SET ELSEWHERE: " + read);
     std::string starts;

@@ -21,6 +21,7 @@
 #include "targets/Conversion.h"
 #include "targets/DialogChoices.h"
 #include "targets/KeptResults.h"
+#include "targets/Reports.h"
 
 #include <algorithm>
 #include <set>
@@ -43,10 +44,18 @@ public:
   bool beginPrograms() override { return programs_.load(); }
 
   bool cycle(const CycleFolder& folder, std::size_t index) override {
-    if (options_.calls != Calls::Inline && context_.inputs->control)
-      context_.compilation.callPrograms(programLevels(*context_.inputs->control));
+    project::CallsAs calls;
+    if (options_.calls == Calls::Subprogram && context_.inputs->control)
+      calls.programLevels = programLevels(*context_.inputs->control);
+    if (options_.calls == Calls::Vendor && context_.compilation.fileOf(folder) != nullptr) {
+      calls.macros = options_.probeMacros
+                         ? session_.macroSet(*options_.probeMacros, &*context_.inputs->control)
+                         : firstThatTouches();
+      if (options_.probeMacros && calls.macros == nullptr) return true; // reported
+    }
+    context_.compilation.callAs(calls);
     std::optional<LoweredSource> source = lowerSource(folder, context_);
-    context_.compilation.callPrograms(0);
+    context_.compilation.callAs({});
     if (!source) return false;
     LoweredCycle& lowered = source->lowered;
     const LoweringInputs& inputs = *context_.inputs;
@@ -63,6 +72,8 @@ public:
     if (!ofLanguage && options_.calls != Calls::Inline)
       session_.diagnostics().report<diag::CallsOfLanguage>({}, callsText(options_.calls), folder.name);
     if (!lowered.programs.empty()) ir::fold(lowered.cycle, lowered.fixed); // drops calls that are never made
+    const std::optional<SourceRange> report = targets::dropReports(lowered);
+    if (report) session_.diagnostics().report<diag::ReportLeftOut>(*report, inputs.control->title);
     CalledPrograms called(lowered, context_, *macros);
     KeptResults results;
     if (ofLanguage)
@@ -82,6 +93,7 @@ public:
         lowered.macros == nullptr ? nullptr : session_.macroSet(lowered.macros->name, &*inputs.sourceControl);
     emit.computed = lowered.computed;
     emit.remarks = std::move(results.headings);
+    if (report) emit.remarks.push_back("REPORTS OF THE SOURCE ARE NOT PRINTED");
     for (const auto& [id, choices] : lists)
       for (const DialogChoice& choice : choices)
         emit.choices[id].push_back({choice.value, choice.title});
@@ -220,18 +232,26 @@ private:
     if (options_.probeMacros) return session_.macroSet(*options_.probeMacros, control);
     if (lowered.macros != nullptr) return session_.macroSet(lowered.macros->name, control);
     if (needsNone(lowered.cycle)) return &none_;
-    for (const stdlib::MacroSet& set : session_.macroSets(control)) {
+    if (const stdlib::MacroSet* const set = firstThatTouches()) {
+      session_.diagnostics().report<diag::MacroSetChosen>({}, lowered.cycle.name, set->name);
+      return set;
+    }
+    session_.diagnostics().report<diag::MissingOption>({}, "convert", "--probe-macros SET",
+                                                       "the macros that the program calls");
+    return nullptr;
+  }
+
+  // nullptr: none does without setting an offset.
+  const stdlib::MacroSet* firstThatTouches() {
+    for (const stdlib::MacroSet& set : session_.macroSets(&*context_.inputs->control)) {
       const stdlib::MacroSignature* surface = set.find(stdlib::Intent::Surface);
       const stdlib::MacroArgument* system =
           surface == nullptr ? nullptr : surface->find(stdlib::ArgumentRole::System, ir::Axis::X);
       if (surface == nullptr || (system != nullptr && system->required)) continue;
       // A vendor's set before one whose text has to be brought along.
       if (session_.data().find("macrob", set.name) != nullptr) continue;
-      session_.diagnostics().report<diag::MacroSetChosen>({}, lowered.cycle.name, set.name);
       return &set;
     }
-    session_.diagnostics().report<diag::MissingOption>({}, "convert", "--probe-macros SET",
-                                                       "the macros that the program calls");
     return nullptr;
   }
 

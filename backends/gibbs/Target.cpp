@@ -109,6 +109,10 @@ private:
     std::vector<gibbs::Block> printed;
     for (const fanuc::BranchBlocks::Line& line : blocks->lines)
       printed.push_back({line.out, line.numbered, line.comment});
+    const bool feeds = std::any_of(blocks->lines.begin(), blocks->lines.end(),
+                                   [](const auto& line) { return line.out.text.starts_with("G1 "); });
+    // A cycle of the language leaves the modes as it finds them, and a post positions with G0.
+    if (file != nullptr && feeds) printed.push_back({{"G0", {}, ""}, false, false});
     std::vector<std::string> remarks = results.headings;
     if (!blocks->variables.empty()) {
       const std::string range = rangeText(blocks->variables);

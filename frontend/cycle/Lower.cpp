@@ -95,17 +95,18 @@ std::optional<Lowered> Lowering::run() {
   dropUnread();
   ir::fold(cycle_, {});
   const std::map<ir::VariableId, ir::VariableId> names = compact(cycle_);
-  Lowered out{std::move(cycle_), {}, {}, {}};
+  Lowered out{std::move(cycle_), {}, {}, {}, macroCalls_};
   for (const auto& [id, letter] : letters_)
     out.letters.emplace(names.at(id), letter);
   return out;
 }
 
 std::optional<Lowered> lower(const File& file, const SourceMap& sources, Diagnostics& diagnostics,
-                             std::uint32_t programLevels) {
+                             const CallForms& forms) {
   Programs programs;
   Lowering lowering(file, sources, diagnostics);
-  lowering.callPrograms(programs, programLevels);
+  lowering.callPrograms(programs, forms.programLevels);
+  lowering.callMacros(forms.macros);
   std::optional<Lowered> out = lowering.run();
   if (!out) return std::nullopt;
   out->programs = std::move(programs.list);

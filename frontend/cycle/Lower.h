@@ -30,11 +30,28 @@ struct CallInPlace {
   std::string cycle, why;
 };
 
+// A cycle of the library that a program of a macro set carries out.
+struct MacroCycle {
+  ir::CallCycle call;                                  // its arguments aside
+  std::map<std::string, ir::CycleArgument> parameters; // by their names, their values aside: all that it has
+  std::map<std::string, ir::ResultName> results;       // by their names: all that it has
+  std::string below; // the parameter that counts down from where the probe is, of the macro a coordinate z
+};
+
+// What calls of cycles become that are not written in the place of their calls.
+struct CallForms {
+  // So deep calls of cycles that move the probe are calls of programs (ir::kProgram); what moves nothing is
+  // in the place of its call whatever that is.
+  std::uint32_t programLevels = 0;
+  std::map<const File*, MacroCycle> macros; // cycles by name, which a back end writes as calls of its macros
+};
+
 struct Lowered {
   ir::Cycle cycle;
   std::map<ir::VariableId, char> letters; // that the source wishes for arguments
   std::vector<CalledProgram> programs;    // that ir::kProgram calls; one with an empty name is called by none
   std::vector<CallInPlace> inPlace;
+  std::size_t macroCalls = 0; // calls of CallForms::macros, before any is dropped
 };
 
 // The cycle with the cycles that it calls written in the place of their calls. Only of a linked tree without
@@ -43,9 +60,7 @@ struct Lowered {
 // Variable::defaultValue; one whose default is computed is optional, and the checks compute it. What the
 // language has beside moves and touches are cycles by the names of ir/CycleNames.h. What the IR has no form
 // for is reported at its place; nullopt then.
-// `programLevels`: so deep calls of cycles that move the probe are calls of programs (ir::kProgram); what
-// moves nothing is in the place of its call whatever that is.
 std::optional<Lowered> lower(const File& file, const SourceMap& sources, Diagnostics& diagnostics,
-                             std::uint32_t programLevels = 0);
+                             const CallForms& forms = {});
 
 } // namespace dotek::frontend::cycle

@@ -1,5 +1,6 @@
 #include "frontend/cycle/Lowering.h"
 #include "frontend/cycle/Walk.h"
+#include "ir/Kinds.h"
 #include "ir/Match.h"
 #include "support/messages/Cycle.h"
 
@@ -15,6 +16,58 @@ bool switchesProbe(const Block& block) {
 
 } // namespace
 
+bool Lowering::callMacro(const Call& call, SourceRange range) {
+  if (macros_ == nullptr) return false;
+  const auto found = macros_->find(call.called);
+  if (found == macros_->end()) return false;
+  const MacroCycle& macro = found->second;
+  // A parameter that is left out, or handed on and perhaps absent, would be what the macro takes for it.
+  if (!call.handedOn.empty() || call.arguments.size() != macro.parameters.size()) return false;
+  ir::CallCycle out = macro.call;
+  Scope inner;
+  inner.prefix = scope_.prefix + call.cycle.text + "_";
+  inner.inlined = true;
+  for (const Argument& argument : call.arguments) {
+    ir::CycleArgument given = macro.parameters.at(argument.name.text);
+    given.value = value(*argument.value);
+    Meaning& meaning = inner.names[argument.name.text];
+    meaning.value = given.value;
+    meaning.kind = kindOf(*argument.value);
+    meaning.given = true;
+    if (argument.name.text == macro.below)
+      given.value = ir::binary(ir::BinaryOp::Subtract, here(ir::Axis::Z, range), given.value, range);
+    out.arguments.push_back(std::move(given));
+  }
+  // What the cycle demands the macro does not ask for.
+  std::swap(scope_, inner);
+  for (const Statement* const one : cycle::declarations(*call.called)) {
+    if (const auto* parameter = std::get_if<Parameter>(&one->node)) clauses(*parameter);
+    if (const auto* require = std::get_if<Require>(&one->node))
+      demand(*require->condition, require->message ? require->message->text : "require not met", one->range);
+  }
+  std::swap(scope_, inner);
+  // The call is all that these do.
+  std::vector<SourceRange>& ranges = emit(std::move(out), range).origin.ranges;
+  eachStatement(call.called->body, [&](const Statement& one) {
+    if (std::holds_alternative<Touch>(one.node) || std::holds_alternative<Move>(one.node))
+      ranges.push_back(one.range);
+  });
+  ++macroCalls_;
+  if (!call.result) return true;
+  Meaning& meaning = scope_.names[call.result->text];
+  for (const auto& [name, result] : macro.results) {
+    Meaning& one = meaning.members[name];
+    if (!one.variable) { // else it is another call of this name
+      one.kind = ir::resultKind(result);
+      one.variable = local(call.result->text + "_" + name, one.kind, call.result->range);
+      one.value = ir::variable(*one.variable, call.result->range);
+      touched_.insert(*one.variable);
+    }
+    emit(ir::Assign{*one.variable, ir::result(result, range)}, range);
+  }
+  return true;
+}
+
 void Lowering::call(const Call& call, SourceRange range) {
   const File* called = call.called;
   if (called == nullptr || called->hasErrorNodes) {
@@ -27,6 +80,7 @@ void Lowering::call(const Call& call, SourceRange range) {
   }
   if (switchesProbe(called->body) && probe_ == Probe::Either)
     refuse<diag::ProbeUncertain>(call.cycle.range, call.cycle.text);
+  if (callMacro(call, range)) return;
 
   Scope inner;
   inner.prefix = scope_.prefix + (call.result ? call.result->text : call.cycle.text) + "_";

@@ -186,6 +186,24 @@ std::vector<std::array<bool, 3>> Lowering::shiftedBefore(const std::vector<ir::C
   return out;
 }
 
+namespace {
+
+// The axis along which a value is one coordinate, and along no other; nothing: it is a length, or no such
+// sum.
+std::optional<std::size_t> axisOf(const Weights& weights) {
+  std::optional<std::size_t> out;
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    const double all = weights[i].now + weights[i].old;
+    if (weights[i].unclear) return std::nullopt;
+    if (!isSome(all)) continue;
+    if (out || isSome(all - 1)) return std::nullopt;
+    out = i;
+  }
+  return out;
+}
+
+} // namespace
+
 void Lowering::warnMixed() {
   constexpr std::size_t kMostWork = 4'000'000; // statements times variables
   const std::vector<ir::CycleStatement>& list = cycle_.body;
@@ -241,9 +259,13 @@ void Lowering::warnMixed() {
         mixed(Reader::sum(reader.of(one.left), reader.of(one.right), -1));
       });
     const auto coordinate = [&](const ir::ExpressionPtr& value, std::size_t i) {
-      const Weight weight = reader.of(value)[i];
+      const Weights weights = reader.of(value);
+      const Weight& weight = weights[i];
       if (!weight.unclear && isSome(weight.old) && !isSome(weight.now))
         warn(i, "a coordinate", "is used as one after it");
+      if (const auto along = axisOf(weights); along && *along != i)
+        report(makeDiagnostic<diag::AxisCrossed>(statement.origin.range(), std::string(1, "xyz"[*along]),
+                                                 std::string(1, "xyz"[i])));
     };
     const auto target = [&](const std::optional<ir::Coordinate>& one, std::size_t i) {
       if (one && one->frame == ir::Frame::Work && one->system == nullptr) coordinate(one->value, i);

@@ -1,5 +1,6 @@
 #include "frontend/cycle/Lowering.h"
 #include "ir/Match.h"
+#include "ir/Walk.h"
 #include "support/messages/Cycle.h"
 
 #include <algorithm>
@@ -167,8 +168,12 @@ void Lowering::clauses(const Parameter& parameter) {
       if (absent) place(*absent, clause.range);
       const auto* use = std::get_if<ir::VariableUse>(&meaning.value->node);
       if (use == nullptr || scope_.inlined) continue;
-      if (signOf(low).above) signs_[use->variable].above = true;
-      if (signOf(high).below) signs_[use->variable].below = true;
+      const Sign least = signOf(low), most = signOf(high);
+      if (!least.above && !most.below) continue;
+      Sign& known = signs_[use->variable];
+      known.above = known.above || least.above;
+      known.below = known.below || most.below;
+      known.apart = known.apart || (least.above && least.apart) || (most.below && most.apart);
     }
   }
 }
@@ -194,10 +199,34 @@ void Lowering::result(const Result& result) {
 void Lowering::demand(const Expression& condition, const std::string& message, SourceRange range) {
   if (decided(condition) == true) return;
   const ir::LabelId fine = label("fine", range);
+  const std::size_t before = out_->size();
   branch(condition, true, fine);
+  if (out_->size() == before + 1 && isDemanded(out_->back())) {
+    out_->resize(before);
+    return;
+  }
   emit(ir::Alarm{message}, range);
   place(fine, range);
   if (!scope_.inlined) bound(condition);
+}
+
+// Of a check that a called cycle makes again: the cycle itself has made it, of what does not change. One of
+// the cycle itself is noted.
+bool Lowering::isDemanded(const ir::CycleStatement& check) {
+  const auto* asked = std::get_if<ir::Branch>(&check.node);
+  if (asked == nullptr) return false;
+  if (scope_.inlined)
+    return std::any_of(demanded_.begin(), demanded_.end(),
+                       [&](const ir::ConditionPtr& one) { return ir::equal(one, asked->condition); });
+  bool lasts = out_ == &cycle_.checks && nested_ == 0;
+  ir::eachNode(check, [&](const ir::Expression& node) {
+    const auto* use = std::get_if<ir::VariableUse>(&node.node);
+    if (use == nullptr) return;
+    const ir::Variable& variable = cycle_.variable(use->variable);
+    lasts = lasts && variable.role != ir::Role::Local && !variable.optional;
+  });
+  if (lasts) demanded_.push_back(asked->condition);
+  return false;
 }
 
 // What the check says of the sign of parameters.
@@ -210,9 +239,23 @@ void Lowering::bound(const Expression& condition) {
     bound(*both->right);
     return;
   }
+  if (both->op == BinaryOp::IsNot) {
+    const Meaning* const meaning = meaningOf(*both->left);
+    const auto* use = meaning == nullptr || meaning->value == nullptr
+                          ? nullptr
+                          : std::get_if<ir::VariableUse>(&meaning->value->node);
+    const std::size_t before = out_->size();
+    const bool parameter = use != nullptr && cycle_.variable(use->variable).role == ir::Role::Parameter;
+    const ir::ExpressionPtr other = parameter ? value(*both->right) : nullptr;
+    out_->resize(before);
+    const double* const zero = other == nullptr ? nullptr : ir::constantValue(other);
+    if (zero != nullptr && *zero == 0) signs_[use->variable].apart = true;
+    return;
+  }
   const bool greater = both->op == BinaryOp::Greater || both->op == BinaryOp::GreaterEqual;
   const bool less = both->op == BinaryOp::Less || both->op == BinaryOp::LessEqual;
   if (!greater && !less) return;
+  const bool strict = both->op == BinaryOp::Greater || both->op == BinaryOp::Less;
   const auto learn = [&](const Expression& side, const Expression& other, bool above) {
     const Meaning* meaning = meaningOf(side);
     if (meaning == nullptr || meaning->value == nullptr) return;
@@ -221,8 +264,10 @@ void Lowering::bound(const Expression& condition) {
     if (use == nullptr || cycle_.variable(use->variable).role != ir::Role::Parameter) return;
     const Sign sign = signOf(value(other));
     out_->resize(before);
-    if (above && sign.above) signs_[use->variable].above = true;
-    if (!above && sign.below) signs_[use->variable].below = true;
+    if (!(above ? sign.above : sign.below)) return;
+    Sign& known = signs_[use->variable];
+    (above ? known.above : known.below) = true;
+    known.apart = known.apart || strict || sign.apart;
   };
   learn(*both->left, *both->right, greater);
   learn(*both->right, *both->left, less);

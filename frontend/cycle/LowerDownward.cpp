@@ -1,4 +1,4 @@
-// Touches in z lead downward: proved, refused, or an alarm where the values decide.
+// Touches have a way, and those in z lead downward: proved, refused, or an alarm where the values decide.
 #include "frontend/cycle/Lowering.h"
 #include "ir/Fold.h"
 #include "ir/Walk.h"
@@ -123,6 +123,27 @@ bool Lowering::leadsDownward(const Touch& touch, SourceRange range) {
       first && use != nullptr && cycle_.variable(use->variable).role == ir::Role::Parameter)
     signs_[use->variable].below = true;
   return true;
+}
+
+void Lowering::hasWay(const Touch& touch, SourceRange range) {
+  const std::size_t before = out_->size();
+  const ir::ExpressionPtr way = value(*touch.value);
+  if (signOf(way).apart) {
+    out_->resize(before);
+    return;
+  }
+  const bool first = out_->size() == before && nested_ == 0 && !called_ && !scope_.inlined && isOfCaller(way);
+  std::vector<ir::CycleStatement>* const list = out_;
+  if (first) out_ = &cycle_.checks;
+  const ir::LabelId fine = label("way", range);
+  emit(ir::Branch{ir::compare(ir::Relation::NotEqual, way, ir::constant(0, range), range), fine}, range);
+  emit(ir::Alarm{"touch has no way"}, range);
+  place(fine, range);
+  out_ = list;
+  if (!first) ways_.insert(fine);
+  if (const auto* use = std::get_if<ir::VariableUse>(&way->node);
+      first && use != nullptr && cycle_.variable(use->variable).role == ir::Role::Parameter)
+    signs_[use->variable].apart = true;
 }
 
 // The check before a touch to a coordinate, when the place is known from which it leads: four statements

@@ -4,6 +4,7 @@
 #include "frontend/cycle/Lowering.h"
 #include "frontend/cycle/Walk.h"
 #include "ir/Positions.h"
+#include "ir/Rewrite.h"
 #include "ir/Walk.h"
 #include "support/messages/Cycle.h"
 
@@ -111,28 +112,37 @@ void Lowering::moveToStart(const Move& move, SourceRange range) {
 }
 
 Lowering::Sign Lowering::signOf(const ir::ExpressionPtr& expression) const {
-  const auto flipped = [](Sign sign) { return Sign{sign.below, sign.above}; };
-  if (const double* known = ir::constantValue(expression)) return {*known >= 0, *known <= 0};
+  const auto flipped = [](Sign sign) { return Sign{sign.below, sign.above, sign.apart}; };
+  if (const double* known = ir::constantValue(expression)) return {*known >= 0, *known <= 0, *known != 0};
   if (const auto* use = std::get_if<ir::VariableUse>(&expression->node)) {
     const ir::Variable& variable = cycle_.variable(use->variable);
-    if (variable.role == ir::Role::Host)
-      return {variable.name == "tool_radius" || variable.name == "overtravel", false};
+    if (variable.role == ir::Role::Host) {
+      const bool length = variable.name == "tool_radius" || variable.name == "overtravel";
+      return {length, false, length};
+    }
     if (const auto once = lasting_.find(use->variable); once != lasting_.end()) return signOf(once->second);
     const auto found = signs_.find(use->variable);
     return found == signs_.end() ? Sign{} : found->second;
   }
   if (const auto* one = std::get_if<ir::Unary>(&expression->node)) {
-    if (one->op == ir::UnaryOp::Negate) return flipped(signOf(one->operand));
-    return {one->op == ir::UnaryOp::Absolute || one->op == ir::UnaryOp::SquareRoot, false};
+    const Sign inner = signOf(one->operand);
+    if (one->op == ir::UnaryOp::Negate) return flipped(inner);
+    const bool length = one->op == ir::UnaryOp::Absolute || one->op == ir::UnaryOp::SquareRoot;
+    return {length, false, length && inner.apart};
   }
   const auto* both = std::get_if<ir::Binary>(&expression->node);
   if (both == nullptr) return {};
+  const auto sum = [](Sign a, Sign b) {
+    const bool above = a.above && b.above, below = a.below && b.below;
+    return Sign{above, below, (above || below) && (a.apart || b.apart)};
+  };
   const Sign left = signOf(both->left), right = signOf(both->right);
-  if (both->op == ir::BinaryOp::Add) return {left.above && right.above, left.below && right.below};
-  if (both->op == ir::BinaryOp::Subtract) return {left.above && right.below, left.below && right.above};
+  if (both->op == ir::BinaryOp::Add) return sum(left, right);
+  if (both->op == ir::BinaryOp::Subtract) return sum(left, flipped(right));
   if (both->op == ir::BinaryOp::Multiply || both->op == ir::BinaryOp::Divide)
     return {(left.above && right.above) || (left.below && right.below),
-            (left.above && right.below) || (left.below && right.above)};
+            (left.above && right.below) || (left.below && right.above),
+            left.apart && (right.apart || both->op == ir::BinaryOp::Divide)};
   return {};
 }
 
@@ -179,13 +189,13 @@ void Lowering::toStart(const ir::CycleStatement& marked, const ir::ExpressionPtr
 }
 
 void Lowering::resolvePlaces() {
-  if (places_.empty() && startMoves_ == 0) return;
+  if (places_.empty() && startMoves_ == 0 && ways_.empty()) return;
   // Adds the hosts that the places need before they are read.
   for (const ir::Axis axis : ir::kAxes)
     if (std::any_of(places_.begin(), places_.end(), [&](const auto& one) { return one.second == axis; }) ||
         (startMoves_ != 0 && axis == ir::Axis::Z))
       host(startName(axis), ir::Kind::Length);
-  const std::vector<ir::Position> known = ir::positions(cycle_);
+  const std::vector<ir::Position> known = ir::positions(cycle_, places_);
   const std::vector<std::array<bool, 3>> shifted = shiftedBefore(cycle_.body);
   const auto work = [&](std::size_t before, ir::Axis axis) -> ir::ExpressionPtr {
     const ir::AxisPosition& at = known[before][ir::indexOf(axis)];
@@ -232,10 +242,24 @@ void Lowering::resolvePlaces() {
           assign->value = ir::constant(0);
         }
         began_[assign->variable] = at;
+        // Of a called cycle that begins where another did: the same coordinate, by the name that it has.
+        const auto* use = std::get_if<ir::VariableUse>(&assign->value->node);
+        if (use != nullptr && assigned[assign->variable] == 1 && starts_.contains(assign->variable) &&
+            cycle_.variable(use->variable).role == ir::Role::Host) {
+          same_.emplace(assign->variable, use->variable);
+          lasting_[assign->variable] = assign->value;
+          continue;
+        }
       }
       if (assigned[assign->variable] == 1 && cycle_.variable(assign->variable).role == ir::Role::Local &&
           isOfCaller(assign->value))
         lasting_[assign->variable] = assign->value;
+    }
+    if (const auto* branch = std::get_if<ir::Branch>(&statement.node);
+        branch != nullptr && ways_.contains(branch->target) &&
+        signOf(std::get<ir::Comparison>(branch->condition->node).left).apart) {
+      i += 2; // the alarm and the label
+      continue;
     }
     const bool marked = std::holds_alternative<ir::Move>(statement.node) && statement.origin.block != 0;
     statement.origin.block = 0;
@@ -268,6 +292,9 @@ void Lowering::resolvePlaces() {
         }
       }
       same[a] = away != nullptr && isZero(away);
+      // Its coordinates are others now, the way is what it was.
+      if (to.frame == ir::Frame::Start && shifted[i][a] && away != nullptr && !same[a])
+        to = {ir::unary(ir::UnaryOp::Negate, away), ir::Frame::Here, nullptr};
       if (axis != ir::Axis::Z) continue;
       height = away;
       if (away == nullptr) continue;
@@ -282,6 +309,7 @@ void Lowering::resolvePlaces() {
     toStart(statement, height, same);
   }
   refuseShiftedStarts();
+  ir::rename(cycle_.body, same_);
   site_ = 0;
 }
 

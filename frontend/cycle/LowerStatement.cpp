@@ -223,6 +223,8 @@ void Lowering::touch(const Touch& touch, SourceRange range) {
     return;
   }
   if (touch.along.empty() && *linear(touch.axis) == ir::Axis::Z && !leadsDownward(touch, range)) return;
+  if (touch.along.empty() && touch.reach == Reach::By && *linear(touch.axis) != ir::Axis::Z)
+    hasWay(touch, range);
   const bool plain =
       touch.along.empty() && !touch.once && touch.overtravel == nullptr && touch.otherwise == nullptr;
   if (plain) {

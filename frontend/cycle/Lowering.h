@@ -69,7 +69,9 @@ public:
     programs_ = &programs;
     levels_ = levels;
   }
-  // It is one of them itself.
+  // Calls of these become calls of macros.
+  void callMacros(const std::map<const File*, MacroCycle>& macros) { macros_ = &macros; }
+  // It is one of the programs itself.
   void beCalled(bool probeOn);
   std::optional<Lowered> run();
 
@@ -110,6 +112,7 @@ private:
   void result(const Result& result);
   // An alarm unless the condition holds.
   void demand(const Expression& condition, const std::string& message, SourceRange range);
+  bool isDemanded(const ir::CycleStatement& check);
   void bound(const Expression& condition);
   static std::string alarmText(const std::string& name);
 
@@ -176,6 +179,8 @@ private:
 
   // ---- LowerCall.cpp
   void call(const Call& call, SourceRange range);
+  // As the call of a macro; false: none carries out the cycle, or one with these arguments.
+  bool callMacro(const Call& call, SourceRange range);
 
   // ---- LowerPrograms.cpp
   struct Outline { // a call that may be one of a program, between two labels of the body
@@ -212,6 +217,7 @@ private:
   void refuseShiftedStarts();
   struct Sign {
     bool above = false, below = false; // certainly 0 or more, 0 or less
+    bool apart = false;                // certainly not 0
   };
   Sign signOf(const ir::ExpressionPtr& expression) const;
   void dropUnread();
@@ -219,6 +225,8 @@ private:
   // ---- LowerDownward.cpp
   // Of a touch in z: refused where it leads upward, an alarm before it where the values decide.
   bool leadsDownward(const Touch& touch, SourceRange range);
+  // Of one `by` in x or y: an alarm before it where the values may leave no way.
+  void hasWay(const Touch& touch, SourceRange range);
   bool isOfCaller(const ir::ExpressionPtr& expression) const;
   Sign signOfDifference(const ir::ExpressionPtr& a, const ir::ExpressionPtr& b) const;
   void resolveGuard(std::vector<ir::CycleStatement>& list, std::size_t at, const ir::ExpressionPtr& here,
@@ -245,11 +253,14 @@ private:
   std::map<ir::VariableId, Sign> signs_;      // of parameters, by their checks
   std::map<std::string, ir::VariableId, std::less<>> hosts_;
   std::map<ir::VariableId, ir::AxisPosition> began_; // where the called cycles began
+  std::map<ir::VariableId, ir::VariableId> same_;    // of starts_: the host input that has the same value
   std::set<ir::VariableId> starts_;                  // of places_: where a called cycle began
   std::set<ir::VariableId> placesOnly_; // of starts_: a place on the machine, whose coordinates are not known
   std::map<ir::VariableId, char> letters_;
   Results results_;
-  Results known_;                   // those that have a value on each path to the statement
+  Results known_; // those that have a value on each path to the statement
+  std::vector<ir::ConditionPtr> demanded_;
+  std::set<ir::LabelId> ways_; // after the checks that a touch has a way, for which locals are to be known
   std::set<ir::VariableId> guards_; // of places_: from there a touch in z is to lead downward
   std::map<ir::VariableId, ir::ExpressionPtr>
       lasting_; // locals that are assigned once, of what the caller gives
@@ -264,6 +275,8 @@ private:
   std::size_t depth_ = 0;  // of calls
   Programs* programs_ = nullptr;
   std::uint32_t levels_ = 0;
+  const std::map<const File*, MacroCycle>* macros_ = nullptr;
+  std::size_t macroCalls_ = 0;
   bool called_ = false; // it is a program that another one calls
   std::vector<Outline> outlines_;
   static constexpr std::size_t kMostStatements = 20000, kMostCalls = 50;

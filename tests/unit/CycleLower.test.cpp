@@ -49,7 +49,7 @@ struct Lowering {
     cycle::link(file, find);
     cycle::check(file, sources, diagnostics);
     REQUIRE_MESSAGE(!diagnostics.hasErrors(), renderText(diagnostics, sources, 0));
-    lowered = cycle::lower(file, sources, diagnostics, programLevels);
+    lowered = cycle::lower(file, sources, diagnostics, {programLevels, {}});
     if (!lowered) return;
     for (const cycle::CalledProgram& program : lowered->programs)
       for (const ir::Violation& one : ir::verify(program.cycle))
