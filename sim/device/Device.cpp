@@ -280,7 +280,7 @@ void Device::touchBegins() {
     if (moves(error.moving, error.along.axis)) noise_ += noise(error.noise);
   for (std::size_t i = 0; i < values_.size(); ++i)
     if (settles_[i] > kNow)
-      say(fmt::format("the probe touches {} before `{}` of {} has settled", seconds(settles_[i]),
+      say(fmt::format("a move looks for contact {} before `{}` of {} has settled", seconds(settles_[i]),
                       file_.values[i].name, setBy_[i]),
           "what it reads lies between the old and the new value");
 }

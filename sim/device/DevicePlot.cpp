@@ -13,8 +13,9 @@ namespace {
 constexpr double kWidth = 760, kHeight = 260, kLeft = 70, kRight = 20, kTop = 34, kBottom = 42;
 
 struct Curve {
-  std::string title, colour;
+  std::string name, colour;
   std::vector<std::pair<double, double>> points;
+  std::string title = {}; // the name and the direction
 };
 
 std::string escaped(std::string_view text) {
@@ -86,6 +87,19 @@ void plot(std::string& out, double top, std::string_view title, std::string_view
                      8, top + kTop - 8, escaped(unit), kWidth - kRight, top + kHeight - kBottom + 32);
 }
 
+// A curve that lies on one of another direction would hide it: that one is for both.
+void add(std::vector<Curve>& curves, Curve curve, const std::string& way) {
+  const auto same = std::find_if(curves.begin(), curves.end(), [&](const Curve& one) {
+    return one.name == curve.name && one.points == curve.points;
+  });
+  if (same != curves.end()) {
+    same->title = curve.name + ", both ways";
+    return;
+  }
+  curve.title = curve.name + way;
+  curves.push_back(std::move(curve));
+}
+
 } // namespace
 
 std::string devicePicture(const Device& device) {
@@ -99,17 +113,16 @@ std::string devicePicture(const Device& device) {
     const std::string way = rule.moving == DeviceMoving::Plus    ? " +"
                             : rule.moving == DeviceMoving::Minus ? " -"
                                                                  : "";
-    Curve before{"before" + way, std::string(kBefore[at % 2]), {}},
-        after{"after" + way, std::string(kAfter[at % 2]), {}};
-    Curve value{file.values[rule.value].title + way, std::string(kAfter[at % 2]), {}};
+    Curve before{"before", std::string(kBefore[at % 2]), {}}, after{"after", std::string(kAfter[at % 2]), {}};
+    Curve value{file.values[rule.value].title, std::string(kAfter[at % 2]), {}};
     for (const Compared& one : all) {
       before.points.emplace_back(one.position, one.before);
       after.points.emplace_back(one.position, one.after);
       value.points.emplace_back(one.position, one.value);
     }
-    errors.push_back(std::move(before));
-    errors.push_back(std::move(after));
-    values.push_back(std::move(value));
+    add(errors, std::move(before), way);
+    add(errors, std::move(after), way);
+    add(values, std::move(value), way);
     ++at;
   }
   if (errors.empty()) return "";
@@ -122,6 +135,7 @@ std::string devicePicture(const Device& device) {
       "height=\"100%\" fill=\"white\"/>\n",
       kWidth, 2 * kHeight + 10);
   std::vector<double> marks = {0};
+  if (file.report.limit > 0) marks.insert(marks.end(), {file.report.limit, -file.report.limit});
   if (file.report.tolerance > 0) marks.insert(marks.end(), {file.report.tolerance, -file.report.tolerance});
   plot(out, 0, "Deviation", "mm", errors, marks);
   plot(out, kHeight + 10, "Set by the device", file.values[file.rules.front().value].unit, values, {});

@@ -11,6 +11,7 @@ namespace dotek::sim {
 namespace {
 
 constexpr double kSame = 5e-7; // mm
+constexpr std::size_t kMostFindings = 50;
 
 std::string shown(double value) {
   return isNull(value) ? "-" : numberText(std::round(value * 1e6) / 1e6);
@@ -142,12 +143,21 @@ void taken(std::string& out, const Device& device, std::size_t at) {
   out += "\n";
 }
 
+// For the title of a section.
+std::string_view wayOf(const DeviceRule& rule) {
+  return rule.moving == DeviceMoving::Plus    ? ", moving towards plus"
+         : rule.moving == DeviceMoving::Minus ? ", moving towards minus"
+                                              : "";
+}
+
 // What the program chose against what it read in its last search at each place.
 void choices(std::string& out, const Device& device, const std::vector<Pass>& all, const DeviceRule& rule) {
   const auto& rows = device.rows(rule.table);
   if (rows.empty()) return;
   out +=
-      "## Chosen values\n\nOf the readings of the last search at each place before the values were sent.\n\n";
+      fmt::format("## Chosen values{}\n\nOf the readings of the last search at each place before the values "
+                  "were sent.\n\n",
+                  wayOf(rule));
   out += head({"position", "chosen", "its reading", "smallest reading", "read at", "what decides"});
   for (const auto& [index, values] : rows) {
     const double position =
@@ -194,10 +204,7 @@ void comparison(std::string& out, const Device& device, const DeviceRule& rule) 
     before = std::max(before, std::abs(one.before));
     if (std::abs(one.after) > after) after = std::abs(one.after), where = one.position;
   }
-  out +=
-      fmt::format("## Before and after{}\n\n", rule.moving == DeviceMoving::Plus    ? ", moving towards plus"
-                                               : rule.moving == DeviceMoving::Minus ? ", moving towards minus"
-                                                                                    : "");
+  out += fmt::format("## Before and after{}\n\n", wayOf(rule));
   out += fmt::format("The largest deviation is {} mm before and {} mm after, at {}.", shown(before),
                      fixedText(after, 4), shown(where));
   if (plan.limit > 0)
@@ -225,9 +232,13 @@ std::vector<Compared> compare(const Device& device, const DeviceRule& rule) {
     if (rule.moving != DeviceMoving::Any && error.moving != DeviceMoving::Any && error.moving != rule.moving)
       continue;
     const auto count = static_cast<std::size_t>(std::floor((plan.to - plan.from) / plan.step + 1e-9));
-    for (std::size_t i = 0; i <= count; ++i) {
+    std::vector<double> positions;
+    for (std::size_t i = 0; i <= count; ++i)
+      positions.push_back(plan.from + plan.step * static_cast<double>(i));
+    if (std::abs(positions.back() - plan.to) > kSame) positions.push_back(plan.to); // not a whole step on
+    for (const double position : positions) {
       Compared one;
-      one.position = plan.from + plan.step * static_cast<double>(i);
+      one.position = position;
       one.value = device.ruled(rule, one.position).value_or(0);
       one.before =
           error.table.at(one.position, device.limited(rule.value, device.file().values[rule.value].initial));
@@ -248,6 +259,14 @@ std::string deviceReport(const DeviceReportHead& head, const Device& device, con
   if (!head.date.empty()) out += fmt::format("| Date | {} |\n", cellText(head.date));
   out += fmt::format("| Dwells | {} s |\n\n", shown(machine.seconds()));
   if (!head.complete) out += "**The program did not come to its end: what follows is not complete.**\n\n";
+  if (!head.findings.empty()) {
+    out += "**The run was not clean: the numbers below come from a run in which this happened.**\n\n";
+    for (std::size_t i = 0; i < std::min(head.findings.size(), kMostFindings); ++i)
+      out += "- " + head.findings[i] + "\n";
+    if (head.findings.size() > kMostFindings)
+      out += fmt::format("- and {} more\n", head.findings.size() - kMostFindings);
+    out += "\n";
+  }
   for (const std::string& note : file.report.notes)
     out += note + "\n\n";
   for (const DeviceRule& rule : file.rules)

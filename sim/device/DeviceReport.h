@@ -5,6 +5,7 @@
 #include "sim/device/Device.h"
 
 #include <string>
+#include <vector>
 
 namespace dotek::sim {
 
@@ -14,6 +15,7 @@ struct DeviceReportHead {
   bool complete = false;                // the program came to its end
   std::string picture;                  // file of devicePicture(), as the page links it
   std::string date;                     // "": none
+  std::vector<std::string> findings;    // errors and warnings of the run, with their places
 };
 
 // Markdown.
