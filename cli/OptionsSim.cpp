@@ -1,6 +1,7 @@
 // Flags of `dotek sim`.
 #include "cli/Files.h"
 #include "cli/Options.h"
+#include "driver/SimMikroprog.h"
 #include "support/Decimal.h"
 #include "support/FileIdentity.h"
 
@@ -45,7 +46,11 @@ void addSim(CLI::App& app, Raw& raw) {
   CLI::App* sim = app.add_subcommand("sim", "run an NC program on a machine and print what it does");
   sim->add_option("PROGRAM", raw.inputs, "the program, or a cycle (NAME.cycle)")->expected(1);
   addTarget(*sim, raw);
-  addSeveral(*sim, "--var", raw.variables, "value of a variable before the program begins", "N=VALUE");
+  addSeveral(
+      *sim, "--var", raw.variables,
+      "value of a variable before the program begins; of Mikroprog P5=3, an input O1=1, a stored shift "
+      "G52.Z=-12",
+      "N=VALUE");
   addSeveral(*sim, "--show", raw.shown,
              "common variable that the table of what was measured shows at the end, by this name, beside the "
              "value that is expected, where one is given",
@@ -72,6 +77,10 @@ void addSim(CLI::App& app, Raw& raw) {
   sim->add_option("--active-system", raw.activeSystem,
                   "work system in force as the program begins, 54 to 59 (54)")
       ->type_name("N");
+  sim->add_option("--datum", raw.datum,
+                  "of Mikroprog: zero of the active system in coordinates of the machine, mm; `part`: where "
+                  "the part is meant to be")
+      ->type_name("X,Z|X,Y,Z|part");
   sim->add_option("--svg", raw.svgFile, "write a picture of the run, three views")->type_name("OUT");
   sim->add_option("--html", raw.htmlFile, "write a page that shows the run in space")->type_name("OUT");
   sim->add_option("--date", raw.date, "date that the pictures show, as you write it")->type_name("TEXT");
@@ -137,10 +146,28 @@ sim::Setup setupOf(const Raw& raw) {
 
 } // namespace
 
+namespace {
+
+// Two numbers are those of a lathe, three those of a mill.
+sim::Setup::Zero datumOf(const std::string& text) {
+  if (text == "part") return {driver::kDatum, true, {}};
+  const auto commas = std::count(text.begin(), text.end(), ',');
+  const std::size_t comma = text.find(',');
+  if (commas != 1 && commas != 2)
+    throw UsageError("--datum takes X,Z of a lathe, X,Y,Z of a mill or `part`, not `" + text + "`");
+  if (commas == 2) return {driver::kDatum, false, pointOf("--datum", text)};
+  std::array<double, 3> out = pointOf("--datum", text.substr(0, comma) + ",0" + text.substr(comma));
+  out[1] = driver::kNoCoordinate;
+  return {driver::kDatum, false, out};
+}
+
+} // namespace
+
 driver::SimOptions simOf(const Raw& raw) {
   driver::SimOptions out;
   out.setup = setupOf(raw);
   out.activeSystem = static_cast<std::uint8_t>(countOf("--active-system", raw.activeSystem, 54, 54, 59) - 54);
+  if (!raw.datum.empty()) out.setup.zeros.push_back(datumOf(raw.datum));
   out.svg = !raw.svgFile.empty();
   out.html = !raw.htmlFile.empty();
   if (!raw.part.empty()) out.part = raw.part;

@@ -3,6 +3,7 @@
 #include "driver/Driver.h"
 #include "driver/SimCycle.h"
 #include "driver/SimDevice.h"
+#include "driver/SimMikroprog.h"
 #include "driver/WatchedRun.h"
 #include "frontend/macrob/Check.h"
 #include "frontend/nc/Scan.h"
@@ -84,6 +85,12 @@ public:
       return device_.device || device_.report ? refuseCycle() : simCycle(options_, session_);
     else if (kind == InputKind::Suf)
       return runSuf();
+    if (stdlib::Setup setup = options_.setup; takeDatum(setup)) {
+      diagnostics().report<diag::SetupFlag>({}, "--datum",
+                                            "it is for programs of Mikroprog; `--work-offset G54=X,Y,Z` sets "
+                                            "a work system");
+      return outcomeOf(session_, "");
+    }
     if (!options_.common.set.empty()) diagnostics().report<diag::OptionOfCycles>({}, "--set");
     if (!options_.common.host.empty()) diagnostics().report<diag::OptionOfCycles>({}, "--host");
     if (diagnostics().hasErrors()) return outcomeOf(session_, "");
@@ -157,7 +164,13 @@ private:
     return true;
   }
 
-  void addReport(const sim::Machine& machine, Outcome& out) const {
+  std::string placeOf(SourceRange range) const {
+    if (!range.hasPlace()) return "";
+    return fmt::format("`{}` line {}: ", session_.sources().file(range.file).name(),
+                       session_.sources().line(range));
+  }
+
+  void addReport(const sim::Machine& machine, Outcome& out) {
     if (!device_.report || !running_) return;
     sim::DeviceReportHead head;
     head.program = options_.program;
@@ -167,6 +180,10 @@ private:
     head.complete =
         machine.end().ending == sim::Ending::ProgramEnd || machine.end().ending == sim::Ending::TextEnd;
     head.date = options_.date;
+    for (const Diagnostic& one : diagnostics().all())
+      if (one.severity != Severity::Note)
+        head.findings.push_back(fmt::format("{}{}: {} [{}]", placeOf(one.range), severityName(one.severity),
+                                            one.message, one.code));
     std::string picture = sim::devicePicture(*running_);
     if (!picture.empty()) head.picture = device_.picture;
     out.files.push_back({"report", sim::deviceReport(head, *running_, machine)});
@@ -288,30 +305,43 @@ private:
 
   void noSetup(const std::string& what) {
     diagnostics().report<diag::OptionOfMacroB>({}, what).note(
-        {},
-        "its run begins at the zero of the machine, in the active system: `[place]` of the part's file puts "
-        "the part there, and `length = 0` of [probe] counts positions at the tip");
+        {}, "`--datum` says where the zero of its active system is, `--at` where the run begins in it, and "
+            "`length = 0` of [probe] counts positions at the tip");
+  }
+
+  // What of a setup a program of Mikroprog knows: where the run begins. "": no more than that is set.
+  static std::string_view setupOfMacroB(sim::Setup setup) {
+    setup.at.reset();
+    return setup.firstFlag();
   }
 
   // A program of Mikroprog; what lint finds an error in is not run.
   Outcome runSuf() {
-    if (!options_.variables.empty()) diagnostics().report<diag::OptionOfMacroB>({}, "--var");
     if (!options_.shown.empty()) diagnostics().report<diag::OptionOfMacroB>({}, "--show");
     if (!options_.programs.empty()) diagnostics().report<diag::OptionOfMacroB>({}, "--programs");
     if (options_.probeMacros) diagnostics().report<diag::OptionOfMacroB>({}, "--probe-macros");
     if (options_.common.job) diagnostics().report<diag::OptionOfMacroB>({}, "--job");
     if (device_.device) diagnostics().report<diag::OptionOfMacroB>({}, "--device");
     if (device_.report) diagnostics().report<diag::OptionOfMacroB>({}, "--report");
-    if (const std::string_view flag = options_.setup.firstFlag(); !flag.empty()) noSetup(std::string(flag));
+    if (!options_.common.set.empty()) diagnostics().report<diag::OptionOfCycles>({}, "--set");
+    if (!options_.common.host.empty()) diagnostics().report<diag::OptionOfCycles>({}, "--host");
+    sufOptions_ = options_;
+    const auto datum = takeDatum(sufOptions_->setup);
+    if (const std::string_view flag = setupOfMacroB(sufOptions_->setup); !flag.empty())
+      noSetup(std::string(flag));
     if (options_.activeSystem != 0) noSetup("--active-system");
     if (diagnostics().hasErrors()) return outcomeOf(session_, "");
     const std::optional<SufProgram> suf = loadSuf(options_.program, options_.control, session_);
-    if (suf) world_ = sim::SimWorld::load(options_, session_);
-    if (world_ && !world_->setup().firstFlag().empty())
+    if (suf) world_ = sim::SimWorld::load(*sufOptions_, session_);
+    if (world_ && !setupOfMacroB(world_->setup()).empty())
       noSetup("[setup] of " + options_.machine.value_or(""));
     if (!world_ || diagnostics().hasErrors()) return outcomeOf(session_, "");
     const sim::mikroprog::Profile profile(suf->control);
     sim::Machine machine(profile.machine, profile.dialect);
+    if (!setParameters(options_.variables, profile, machine, diagnostics()) ||
+        (datum && !placeDatum(*datum, suf->control, world_->partZero(), machine, diagnostics())) ||
+        !world_->prepare(machine) || !world_->startsWithinTravel(machine))
+      return outcomeOf(session_, "");
     return runCode(sim::mikroprog::compile(suf->program, profile, session_.sources()), machine, nullptr, "");
   }
 
@@ -447,6 +477,7 @@ private:
   }
 
   const SimOptions& options_;
+  std::optional<SimOptions> sufOptions_; // of a program of Mikroprog: without its datum
   const sim::DeviceOptions& device_;
   Session& session_;
   WatchedRun* watched_; // nullptr: nobody listens

@@ -68,7 +68,7 @@ bool CycleRun::runList(const std::vector<ir::CycleStatement>& list) {
     at_ = &list[at];
     jump_.reset();
     if (!spend(kStatement)) return false;
-    machine_.countBlock();
+    machine_.countBlock(machine_.frame().line);
     if (!step(list[at]) || !machine_.running()) return false;
     if (returned_) return true;
     if (!jump_) {

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -69,6 +70,8 @@ enum class Op : std::uint8_t {
   Record,     // a: cell of the value, kNoCell: the position; b: index in texts of the file
   Fault,      // the control stops
   CountBlock, // a block of the text that has no words for the machine
+  Act,        // a: index in actions
+  Round,      // a jump back comes; with the machine as it was in an earlier round the run ends
 };
 
 inline constexpr std::uint8_t kHazard = 1;   // a position, or the window of the PMC
@@ -118,6 +121,10 @@ struct Routine {
   std::vector<NumberedPlace> labels; // by number, then by place
 };
 
+class Machine;
+// What a dialect does by itself, with the cells. false: the run has ended.
+using Action = std::function<bool(Machine& machine, double* cells)>;
+
 struct Bytecode {
   std::vector<Instruction> instructions;
   // Of each instruction: its statement in the body, its line, and the innermost loop around it, 0 for none.
@@ -129,6 +136,7 @@ struct Bytecode {
   std::vector<CallSlots> calls;
   std::vector<ArgumentSlot> arguments;
   std::vector<std::string> texts;
+  std::vector<Action> actions;
   std::vector<const ir::Print*> prints;
   std::vector<const ir::NameVariables*> names;
   std::vector<Routine> routines; // in the order of the programs; the first is the main one

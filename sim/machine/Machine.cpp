@@ -48,8 +48,8 @@ Machine::Machine(const stdlib::Control& control, Dialect dialect)
   if (turning_ != nullptr) {
     start(turning_->startCodes);
     long_ = 1;
-    shown_ = 1u << 0 | 1u << 2;
   }
+  if (turning_ != nullptr || dialect_.isLathe) shown_ = 1u << 0 | 1u << 2;
   needPoint_ = control.decimal == stdlib::DecimalMode::Increment ? control.lengths : 0;
   mostPlaces_ = static_cast<std::uint32_t>(control.decimals);
   widest_ = std::pow(10.0, control.integerDigits);
@@ -68,7 +68,7 @@ Machine::Machine(const stdlib::Control& control, Dialect dialect)
 
 void Machine::setTrace(Trace* trace) {
   trace_ = trace;
-  if (trace != nullptr && turning_ != nullptr) trace->showLathe(turning_->diameters);
+  if (trace != nullptr && (turning_ != nullptr || dialect_.isLathe)) trace->showLathe(showsDiameters());
 }
 
 void Machine::setWatcher(MotionWatcher* watcher) {

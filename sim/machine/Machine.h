@@ -171,6 +171,8 @@ public:
   const stdlib::Control& control() const { return *control_; }
   bool isLathe() const { return turning_ != nullptr; }
   bool countsDiameters() const { return turning_ != nullptr && turning_->diameters; }
+  // What a user reads of X is a diameter, whatever its words are to the machine.
+  bool showsDiameters() const { return countsDiameters() || dialect_.showsDiameters; }
   Trace* trace() const { return trace_; }
 
   // ---- variables of macros
@@ -291,10 +293,19 @@ public:
   void expectNoContact(bool none) { skipPositions_ = none; }
   // nullopt: no signal was given.
   std::optional<bool> signalIsThere();
+  bool hasSkipSignal() const { return skip_ != nullptr; }
+  // The origin of the active system lies there in it, whatever shift was in force; {}: none is.
+  void shiftLocally(const Position& origin);
+  bool threadTo(const Position& end, double lead); // straight, false: the run has ended
+  // Rapid to the machine's zero in these axes (bits); the coordinates that G92 has set end.
+  bool runToReference(std::uint32_t axes);
+  // A line of the trace for a cycle of which no more is known than that it comes back to where it began.
+  void traceRound(std::string_view name, const Position& corner);
   void pause(std::string_view text); // a stop for the operator, who reads it; "" for none
   // The control writes a file: where it is, or a value.
   void record(std::string_view file, std::optional<double> value);
-  void countBlock() { ++blocks_; } // one that leaves nothing for the machine to do
+  void countBlock(std::uint64_t line); // one that leaves no words for the machine
+  void atLine(std::uint64_t line);     // of what is reported and traced from now on
 
   // ---- ends
   bool raise(stdlib::Alarm alarm, char letter = 0);                             // false

@@ -160,8 +160,8 @@ bool Machine::arc(const NcWords& w, const Position& end) {
     trace_->begin(modes_[kMotion] == kArcClockwise ? "arc-cw" : "arc-ccw").text(plane.name);
     trace_->position(knownOf(end, uncertain_), shown_);
     trace_->text("centre")
-        .word("", snap(work_[plane.first] + first) * (plane.first == 0 && countsDiameters() ? 2 : 1))
-        .word("", snap(work_[plane.second] + second) * (plane.second == 0 && countsDiameters() ? 2 : 1));
+        .word("", snap(work_[plane.first] + first) * (plane.first == 0 && showsDiameters() ? 2 : 1))
+        .word("", snap(work_[plane.second] + second) * (plane.second == 0 && showsDiameters() ? 2 : 1));
     trace_->word(modes_[kFeedMode] == 0 ? "F" : "FR", feed_).end();
   }
   const Position begin = work_;

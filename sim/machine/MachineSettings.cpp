@@ -86,7 +86,8 @@ bool Machine::settings(const NcWords& w) {
   if (trace_ != nullptr && modes_[kComp] != block_.before[kComp]) {
     static constexpr std::string_view kNames[] = {"off", "left", "right"};
     trace_->begin("comp").text(kNames[modes_[kComp]]);
-    if (modes_[kComp] != 0) trace_->text(fmt::format("D{:.0f}", modalWords_[slotOf('D')]));
+    if (modes_[kComp] != 0 && !dialect_.firstParameter)
+      trace_->text(fmt::format("D{:.0f}", modalWords_[slotOf('D')]));
     trace_->end();
   }
   return true;

@@ -117,7 +117,9 @@ unsigned operandsOf(Op op) {
   case Op::LeavePlace:
   case Op::Pause:
   case Op::Fault:
-  case Op::CountBlock: break;
+  case Op::CountBlock:
+  case Op::Act:
+  case Op::Round: break;
   }
   return 0;
 }
@@ -526,7 +528,21 @@ template <bool kDecimal8, bool kWatched> bool Run::execute() {
         return true;
       }
       break;
-    case Op::CountBlock: machine_.countBlock(); break;
+    case Op::CountBlock: machine_.countBlock(code_.lines[static_cast<std::size_t>(at - all)]); break;
+    case Op::Act:
+      leave();
+      machine_.atLine(code_.lines[place_]);
+      if (!code_.actions[at->a](machine_, cells) || !machine_.running() || !spend(10)) return false;
+      fuel = fuel_;
+      if (trail_ && !kWatched) {
+        ++place_;
+        return true;
+      }
+      break;
+    case Op::Round:
+      leave();
+      if (!round()) return false;
+      break;
     case Op::End: leave(); return textEnd();
     }
     ++at;

@@ -197,6 +197,7 @@ private:
   // ---- RunDialect.cpp
   bool callPlace(std::uint32_t entry);
   bool leavePlace(const std::string& fault);
+  bool round(); // false: the run has ended
 
   // ---- RunPrint.cpp
   bool openPort(bool open);
@@ -256,6 +257,11 @@ private:
       measured_; // cells of common variables that a macro without text left; for a listener
   std::uint64_t passes_ = 0;
   std::vector<double> lastPass_; // the machine as the last pass began
+  // Jumps back so far, and the machine at one of them: at which, how deep in calls.
+  std::uint64_t rounds_ = 0, keptRound_ = 0;
+  std::uint32_t roundPlace_ = 0;
+  std::size_t roundLevels_ = 0;
+  std::vector<double> roundState_;
   std::map<std::uint64_t, std::string> unreadable_;
   std::vector<bool> readEarly_; // by instruction
   struct Write {

@@ -2,12 +2,15 @@
 #include "ir/Rewrite.h"
 #include "sim/machine/Compiler.h"
 #include "sim/machine/Trace.h"
+#include "sim/mikroprog/Acts.h"
 #include "sim/mikroprog/Dialect.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
+#include <set>
+#include <utility>
 
 namespace dotek::sim::mikroprog {
 
@@ -15,19 +18,56 @@ namespace {
 
 constexpr std::string_view kJumpLetters =
     "LOH@"; // what jumps, conditions and files take: nothing for the machine
-constexpr std::string_view kQuiet[] = {"join-off", "set-condition", "write-text"}; // move and decide nothing
+// Move and decide nothing. What joins blocks changes no end of a move.
+constexpr std::string_view kQuiet[] = {"join-on", "join-off", "set-condition"};
 
-enum class Flow : std::uint8_t { None, Jump, JumpIf, Call, Return, Position, Value, Stop };
+// After the words of the block.
+enum class Flow : std::uint8_t {
+  None,
+  Jump,
+  JumpIf,
+  Call,
+  Return,
+  Position,
+  Value,
+  Text,
+  Stop,
+  StopIf,
+  Wait,
+  Reference,
+  Output,
+};
 
 Flow flowOf(std::string_view function) {
   static constexpr std::pair<std::string_view, Flow> kFlows[] = {
-      {"jump", Flow::Jump},     {"jump-if", Flow::JumpIf},           {"call", Flow::Call},
-      {"return", Flow::Return}, {"record-position", Flow::Position}, {"record-value", Flow::Value},
+      {"jump", Flow::Jump},
+      {"jump-if", Flow::JumpIf},
+      {"call", Flow::Call},
+      {"return", Flow::Return},
+      {"record-position", Flow::Position},
+      {"record-value", Flow::Value},
+      {"write-text", Flow::Text},
       {"stop", Flow::Stop},
+      {"stop-if", Flow::StopIf},
+      {"wait", Flow::Wait},
+      {"reference", Flow::Reference},
+      {"output-on", Flow::Output},
+      {"output-off", Flow::Output},
   };
   for (const auto& [name, flow] : kFlows)
     if (name == function) return flow;
   return Flow::None;
+}
+
+// In force for the words of its own block.
+bool isSetting(std::string_view function) {
+  return function == "system-off" || function == "system-stored" || function == "surface-speed";
+}
+// Letters of functions that the machine has no words for.
+std::string_view lettersOf(std::string_view function) {
+  if (function == "surface-speed") return "A";
+  if (function == "wait") return "E";
+  return function.starts_with("output-") ? "Q" : "";
 }
 
 bool isAxis(char letter) {
@@ -40,6 +80,14 @@ public:
       : Compiler(profile.machine, sources), profile_(profile), moves_(skipMoves(program, profile.control)) {
     for (ir::LabelId label = 0; label < program.labels.size(); ++label)
       numbers_.emplace(program.labels[label].number, label);
+    places_.resize(program.labels.size());
+    for (std::size_t i = 0; i < program.body.size(); ++i) {
+      if (const auto* label = std::get_if<ir::Label>(&program.body[i].node)) places_[label->label] = i;
+      const auto* block = std::get_if<ir::NcBlock>(&program.body[i].node);
+      if (block == nullptr) continue;
+      for (const ir::Word& word : block->words)
+        if (const auto* function = functionOf(word)) used_.insert(function->function);
+    }
   }
 
   using Compiler::operator();
@@ -56,13 +104,15 @@ public:
   void operator()(const ir::NcBlock& block) override {
     Plan plan;
     if (!planOf(block, plan)) return;
-    if (plan.words.words.empty())
-      emit(Op::CountBlock);
-    else
-      words(plan.words, plan.probes && isProtected());
+    if (plan.words.words.empty() || !plan.settings.empty()) emit(Op::CountBlock);
+    for (const stdlib::MikroprogFunction* setting : plan.settings)
+      if (!act(*setting, block)) return;
+    if (plan.stopsFirst) emit(Op::Pause, 0, text(comment()));
+    if (!plan.words.words.empty()) words(plan.words, plan.probes && isProtected());
+    if (plan.main != nullptr && !act(*plan.main, block)) return;
     if (plan.probes) missed(block);
-    for (const Flow flow : plan.flows)
-      step(flow, block);
+    for (const auto& [flow, function] : plan.flows)
+      step(flow, *function, block);
   }
 
 protected:
@@ -70,13 +120,23 @@ protected:
 
 private:
   struct Plan {
-    ir::NcBlock words; // for the machine
-    std::vector<Flow> flows;
+    ir::NcBlock words;                                      // for the machine
+    std::vector<const stdlib::MikroprogFunction*> settings; // before them
+    const stdlib::MikroprogFunction* main = nullptr;        // takes the words of the block
+    std::vector<std::pair<Flow, const stdlib::MikroprogFunction*>> flows;
     bool probes = false;
+    bool stopsFirst = false; // a tool is changed by hand
   };
 
+  const stdlib::MikroprogFunction* functionOf(const ir::Word& word) const {
+    const auto number = word.address == 'G' || word.address == 'M' ? wholeOf(word) : std::nullopt;
+    return number ? profile_.control.find(word.address, *number) : nullptr;
+  }
+  bool uses(std::string_view function) const { return used_.contains(std::string(function)); }
+
   std::optional<std::uint32_t> cellOf(double parameter) const {
-    if (!(parameter >= 0 && parameter < 1e9) || parameter != std::floor(parameter)) return std::nullopt;
+    if (!(parameter >= 0 && parameter <= kLastParameter) || parameter != std::floor(parameter))
+      return std::nullopt;
     const std::uint32_t cell = layout_.cellOf(variableOf(static_cast<std::uint32_t>(parameter)));
     return cell == CellLayout::kNone ? std::nullopt : std::optional(cell);
   }
@@ -114,53 +174,120 @@ private:
   // false: the block ends the run here.
   bool planOf(const ir::NcBlock& block, Plan& plan) {
     const stdlib::MikroprogControl& control = profile_.control;
-    bool sets = false, axes = false, diameters = false;
-    std::optional<bool> incremental; // as this block says it
-    std::string flowCode;            // of the first
     const auto refused = [&](std::string why) {
       refuse(std::move(why));
       return false;
     };
+    BlockSays says;
+    std::string taken; // letters that functions of the block take
+    for (const ir::Word& word : block.words)
+      if (const auto* function = functionOf(word)) {
+        taken += lettersOf(function->function);
+        if (!takesWords(function->function)) continue;
+        if (plan.main != nullptr)
+          return refused(
+              fmt::format("{} and {} want the words of one block", plan.main->code(), function->code()));
+        plan.main = function;
+      }
     for (const ir::Word& word : block.words) {
       const char letter = word.address;
       if (letter != 'G' && letter != 'M') {
-        if (kJumpLetters.find(letter) != std::string_view::npos) continue;
+        if (kJumpLetters.find(letter) != std::string_view::npos || taken.find(letter) != std::string::npos)
+          continue;
+        if (plan.main != nullptr && letter != 'F' && letter != 'S') continue;
+        says.speed = says.speed || letter == 'S';
         if (isAxis(letter)) {
           if (!control.hasAxis(letter)) return refused(fmt::format("there is no axis {}", letter));
-          if (!flowCode.empty())
-            return refused(fmt::format("whether the move or {} comes first is not known", flowCode));
-          axes = true;
-          diameters = diameters || control.isDiameter(letter);
+          if (!says.flow.empty())
+            return refused(fmt::format("whether the move or {} comes first is not known", says.flow));
+          says.axes = true;
+          says.diameters = says.diameters || control.isDiameter(letter);
         }
+        if ((letter == 'I' || letter == 'J' || letter == 'K') && !assumes(3))
+          return refused(fmt::format("whether {} counts from the start of the arc or is a coordinate is not "
+                                     "known (Q3); write the radius, R",
+                                     letter));
+        if (const double* number = ir::constantValue(word.value); letter == 'R' && number && *number < 0)
+          return refused("an arc with R is at most half a turn here; what a negative R means is not stated");
         const auto with = parameters(word.value);
         if (!with) return false;
         plan.words.words.push_back({letter, control.isDiameter(letter) ? half(*with) : *with, word.range});
         continue;
       }
-      const auto number = wholeOf(word);
-      const stdlib::MikroprogFunction* const function = number ? control.find(letter, *number) : nullptr;
-      if (function == nullptr || !function->usable)
-        return refused(number ? fmt::format("{}{} is not known", letter, *number)
-                              : fmt::format("a computed {} is not known", letter));
-      const std::string& what = function->function;
-      if (const Flow flow = flowOf(what); flow != Flow::None) {
-        plan.flows.push_back(flow);
-        if (flowCode.empty()) flowCode = function->code();
-      } else if (profile_.machine.find(letter, *number * 10) != nullptr) {
-        plan.words.words.push_back(word);
-        plan.probes = plan.probes || what == "probe-move";
-        sets = sets || what == "set-position";
-        if (what == "absolute" || what == "incremental") incremental = what == "incremental";
-      } else if (std::find(std::begin(kQuiet), std::end(kQuiet), what) == std::end(kQuiet)) {
-        return refused(what.empty() ? "a function that is not followed" : what + " is not followed");
-      }
+      if (!take(word, plan, says)) return false;
     }
-    if ((plan.probes || sets) && !axes) {
+    return check(plan, says);
+  }
+
+  // What a block has, for check().
+  struct BlockSays {
+    bool sets = false, axes = false, diameters = false, speed = false, motion = false, once = false;
+    std::optional<bool> incremental, radius;
+    std::string flow; // code of the first
+  };
+
+  bool assumes(std::uint32_t question) const {
+    const stdlib::MikroprogQuestion* const asked = profile_.control.question(question);
+    return asked != nullptr && asked->assumed;
+  }
+
+  // A G or an M.
+  bool take(const ir::Word& word, Plan& plan, BlockSays& says) {
+    const auto number = wholeOf(word);
+    const stdlib::MikroprogFunction* const function = functionOf(word);
+    if (function == nullptr || !function->usable) {
+      refuse(number ? fmt::format("{}{} is not known", word.address, *number)
+                    : fmt::format("a computed {} is not known", word.address));
+      return false;
+    }
+    const std::string& what = function->function;
+    if (const Flow flow = flowOf(what); flow != Flow::None) {
+      plan.flows.emplace_back(flow, function);
+      if (says.flow.empty()) says.flow = function->code();
+    } else if (isSetting(what)) {
+      plan.settings.push_back(function);
+    } else if (what == "radius") {
+      says.radius = true;
+    } else if (profile_.machine.find(word.address, *number * 10) != nullptr) {
+      plan.words.words.push_back(word);
+      plan.probes = plan.probes || what == "probe-move";
+      says.sets = says.sets || what == "set-position";
+      says.once = says.once || plan.probes || says.sets;
+      says.motion = says.motion || function->group == "motion";
+      if (what == "absolute" || what == "incremental") says.incremental = what == "incremental";
+      if (what == "absolute") says.radius = false;
+      if (what == "tool-change") {
+        if (says.flow.empty()) says.flow = function->code();
+        const auto* tool = function->find('T');
+        plan.stopsFirst = tool == nullptr || !tool->most; // without places there is no turret
+      }
+    } else if (plan.main != function &&
+               std::find(std::begin(kQuiet), std::end(kQuiet), what) == std::end(kQuiet)) {
+      refuse(what.empty() ? "a function that is not followed" : what + " is not followed");
+      return false;
+    }
+    return true;
+  }
+
+  bool check(const Plan& plan, const BlockSays& says) {
+    if ((plan.probes || says.sets) && !says.axes) {
       emit(Op::Fault, 0, text(plan.probes ? "G31 without an axis" : "G92 without an axis"));
       return false;
     }
-    if (plan.probes && !absolute(incremental, "G31 under G91 (Q20)")) return false;
-    return !diameters || sets || absolute(incremental, "G91 with a diameter (Q9)");
+    if (plan.main != nullptr && (says.motion || says.once)) {
+      refuse(fmt::format("{} and a move want the words of one block", plan.main->code()));
+      return false;
+    }
+    if (says.radius && uses("radius")) run(keep(kRadius, *says.radius ? 1 : 0));
+    if (uses("thread-pass") && says.motion) run(keep(kMotionLost, 0));
+    if (uses("thread-pass") && says.axes && !says.motion && !says.once) run(checkMotion());
+    if (uses("surface-speed") && says.speed) run(endSurfaceSpeed());
+    if (says.sets) run(checkNoShift());
+    if (plan.probes && !absolute(says.incremental, "G31 under G91 (Q20)")) return false;
+    if (!says.diameters || says.sets) return true;
+    if (!uses("radius")) return absolute(says.incremental, "G91 with a diameter (Q9)");
+    if (says.incremental.value_or(true)) run(checkDiameters(says.incremental.has_value()));
+    return true;
   }
 
   // In incremental mode the run ends here; false: it is certain to.
@@ -173,10 +300,50 @@ private:
     return true;
   }
 
-  // A diameter as the radius that the machine counts.
-  static ir::ExpressionPtr half(const ir::ExpressionPtr& value) {
-    if (const double* number = ir::constantValue(value)) return ir::constant(*number / 2, value->range);
-    return ir::binary(ir::BinaryOp::Divide, value, ir::constant(2, value->range), value->range);
+  // A diameter as the radius that the machine counts; under G24 it is one.
+  ir::ExpressionPtr half(const ir::ExpressionPtr& value) const {
+    const SourceRange range = value->range;
+    if (uses("radius")) // null counts as 0
+      return ir::binary(ir::BinaryOp::Divide, value,
+                        ir::binary(ir::BinaryOp::Subtract, ir::constant(2, range),
+                                   ir::machineVariable(ir::constant(variableOf(kRadius), range), range),
+                                   range),
+                        range);
+    if (const double* number = ir::constantValue(value)) return ir::constant(*number / 2, range);
+    return ir::binary(ir::BinaryOp::Divide, value, ir::constant(2, range), range);
+  }
+
+  void run(Action action) {
+    code_.actions.push_back(std::move(action));
+    emit(Op::Act, static_cast<std::uint32_t>(code_.actions.size() - 1));
+  }
+
+  // false: the block ends the run here.
+  bool act(const stdlib::MikroprogFunction& function, const ir::NcBlock& block) {
+    Act out(profile_.control, function);
+    const std::string_view letters = lettersOf(function.function);
+    for (const ir::Word& word : block.words) {
+      const char letter = word.address;
+      const bool own = takesWords(function.function)
+                           ? letter != 'F' && letter != 'S' && letter != 'G' && letter != 'M'
+                           : letters.find(letter) != std::string_view::npos;
+      if (!own || letter < 'A' || letter > 'Z') continue;
+      if (out.has(letter)) {
+        refuse(fmt::format("{} twice in a block is not stated (Q15)", letter));
+        return false;
+      }
+      const auto with = parameters(word.value);
+      if (!with) return false;
+      out.words[static_cast<std::size_t>(letter - 'A')] = value(*with);
+    }
+    for (const stdlib::MikroprogAddress& address : function.addresses)
+      if (address.use == stdlib::AddressUse::Needed && address.letter >= 'A' && address.letter <= 'Z' &&
+          !out.has(address.letter)) {
+        emit(Op::Fault, 0, text(fmt::format("{} without {}", function.code(), address.letter)));
+        return false;
+      }
+    run(actionOf(out));
+    return true;
   }
 
   // What `write` adds runs where the instruction jumps.
@@ -204,6 +371,7 @@ private:
       emit(Op::Fault, 0, text("a jump without L"));
     } else if (const auto number = wholeOf(*word)) {
       const auto label = numbers_.find(*number);
+      if (label != numbers_.end() && op == Op::Jump && places_[label->second] <= at_) emit(Op::Round);
       if (label != numbers_.end())
         jumpTo(emit(op), label->second);
       else
@@ -215,11 +383,14 @@ private:
     }
   }
 
-  void step(Flow flow, const ir::NcBlock& block) {
+  void step(Flow flow, const stdlib::MikroprogFunction& function, const ir::NcBlock& block) {
     switch (flow) {
     case Flow::None: return;
     case Flow::Jump: return go(block);
-    case Flow::JumpIf: return jumpOn(block);
+    case Flow::JumpIf:
+      if (const auto condition = conditionOf(function, block))
+        where(emit(Op::JumpTrue, ask(*condition)), [&] { go(block); });
+      return;
     case Flow::Call:
       // H1 is one run or two.
       if (find(block, 'H') != nullptr)
@@ -227,49 +398,80 @@ private:
       return go(block, Op::CallPlace);
     case Flow::Return: emit(Op::LeavePlace, 0, text("M17 without a call")); return;
     case Flow::Stop: emit(Op::Pause, 0, text(comment())); return;
-    case Flow::Position:
-    case Flow::Value: {
-      const ir::Word* const file = find(block, '@');
-      const auto* name = file == nullptr ? nullptr : std::get_if<ir::Constant>(&file->value->node);
-      if (name == nullptr || name->digits.empty()) {
-        emit(Op::Fault, 0, text("no file"));
-        return;
-      }
-      if (name->digits.find_first_of("/\\:") != std::string::npos)
-        return refuse("a file outside the folder of the programs");
-      emit(Op::Record, flow == Flow::Position ? kNoCell : given(kAccumulator), text(name->digits));
+    case Flow::StopIf:
+      if (const auto condition = conditionOf(function, block))
+        run(stopIf(profile_.control, *condition, comment()));
       return;
-    }
+    case Flow::Wait: return waitFor(function, block);
+    case Flow::Reference:
+      if (find(block, 'H') != nullptr)
+        return refuse("what H of G98 names is not known (Q29); G98 alone runs to the switches of all axes");
+      act(function, block);
+      return;
+    case Flow::Output: act(function, block); return;
+    case Flow::Text:
+    case Flow::Position:
+    case Flow::Value: return record(flow, block);
     }
   }
 
-  // Conditions: O7 the probe, O10 P90 = 0, then for each axis P90 at most its coordinate, P90 above it.
-  void jumpOn(const ir::NcBlock& block) {
-    const ir::Word* const word = find(block, 'O');
-    if (word == nullptr) {
-      emit(Op::Fault, 0, text("G23 without O"));
+  void record(Flow flow, const ir::NcBlock& block) {
+    const ir::Word* const file = find(block, '@');
+    const auto* name = file == nullptr ? nullptr : std::get_if<ir::Constant>(&file->value->node);
+    if (name == nullptr || name->digits.empty()) {
+      emit(Op::Fault, 0, text("no file"));
       return;
     }
-    const auto number = wholeOf(*word);
-    if (!number) return refuse("a condition whose number a parameter gives is not known");
-    std::uint32_t condition = 0;
-    if (*number == 7) {
-      condition = emit(Op::JumpSignal, 0, text("O7 without a part"));
-    } else if (*number < 10 || *number > 16) {
-      return refuse(fmt::format("O{} is an input of the machine", *number));
-    } else {
-      const std::uint32_t p = given(kAccumulator);
-      if (*number == 10) {
-        condition = emit(Op::JumpSame, p, constant(0));
-      } else {
-        const std::uint32_t axis = (*number - 11) / 2;
-        const std::uint32_t place = temporary();
-        emit(Op::Place, 0, 0, place, static_cast<std::uint8_t>(axis));
-        if (profile_.control.isDiameter(kAxisLetters[axis])) emit(Op::Multiply, place, constant(2), place);
-        condition = emit(*number % 2 == 1 ? Op::JumpLessEqual : Op::JumpGreater, p, place);
-      }
+    if (name->digits.find_first_of("/\\:") != std::string::npos)
+      return refuse("a file outside the folder of the programs");
+    if (flow == Flow::Text) return run(writeText(name->digits, comment()));
+    emit(Op::Record, flow == Flow::Position ? kNoCell : given(kAccumulator), text(name->digits));
+  }
+
+  // The number of O. nullopt: the block ends the run here.
+  std::optional<std::uint32_t> conditionOf(const stdlib::MikroprogFunction& function,
+                                           const ir::NcBlock& block) {
+    const ir::Word* const word = find(block, 'O');
+    const auto number = word == nullptr ? std::nullopt : wholeOf(*word);
+    if (word == nullptr)
+      emit(Op::Fault, 0, text(function.code() + " without O"));
+    else if (!number)
+      refuse("a condition whose number a parameter gives is not known");
+    else if (profile_.control.condition(*number) == nullptr)
+      refuse(fmt::format("O{} is no condition", *number));
+    else
+      return *number;
+    return std::nullopt;
+  }
+
+  // A cell that is 1 where the condition holds, else 0.
+  std::uint32_t ask(std::uint32_t condition) {
+    if ((condition == 11 || condition == 12) && uses("radius") && profile_.control.isDiameter('X'))
+      run(checkRadius("what P90 is compared with under G24 is not stated (Q13)"));
+    const std::uint32_t cell = temporary();
+    run(askCondition(profile_.control, condition, cell));
+    return cell;
+  }
+
+  // G5: the time is over where the condition does not hold, since nothing moves meanwhile.
+  void waitFor(const stdlib::MikroprogFunction& function, const ir::NcBlock& block) {
+    const auto condition = conditionOf(function, block);
+    const ir::Word* const time = find(block, 'E');
+    if (!condition) return;
+    if (time == nullptr) {
+      emit(Op::Fault, 0, text("G5 without E"));
+      return;
     }
-    where(condition, [&] { go(block); });
+    const auto with = parameters(time->value);
+    if (!with) return;
+    const std::uint32_t seconds = value(*with);
+    where(emit(Op::JumpFalse, ask(*condition)), [&] {
+      run(dwellThen(seconds));
+      if (find(block, 'L') != nullptr)
+        go(block);
+      else
+        emit(Op::Fault, 0, text(fmt::format("O{} did not hold within the time of G5", *condition)));
+    });
   }
 
   // The text beside the block that is compiled: what the operator reads.
@@ -278,6 +480,8 @@ private:
   const Profile& profile_;
   const std::vector<SkipMoveUse> moves_;
   std::map<std::uint64_t, ir::LabelId> numbers_; // N to the first block that has it
+  std::vector<std::size_t> places_;              // of each label: its statement
+  std::set<std::string> used_;                   // functions of its blocks
 };
 
 } // namespace

@@ -3,6 +3,7 @@
 #include "ir/Match.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <map>
 
@@ -12,23 +13,28 @@ using stdlib::Function;
 
 namespace {
 
-// What the machine does by itself. Arcs, tool changes, stored shifts and cycles have their place here once
-// they are followed.
+// What the machine does by itself; Acts.cpp has the rest.
 constexpr std::pair<std::string_view, Function> kEffects[] = {
     {"rapid", Function::Rapid},
     {"feed", Function::Feed},
+    {"arc-clockwise", Function::ArcClockwise},
+    {"arc-counter-clockwise", Function::ArcCounterClockwise},
     {"dwell", Function::Dwell},
     {"plane-xy", Function::PlaneXY},
     {"plane-zx", Function::PlaneZX},
     {"plane-yz", Function::PlaneYZ},
     {"probe-move", Function::Skip},
     {"compensation-off", Function::CutterCompOff},
-    {"system-off", Function::PathMode}, // no other system is followed yet
+    {"compensation-right", Function::CutterCompLeft}, // the surface is right of the path, the tool left
+    {"compensation-left", Function::CutterCompRight},
     {"absolute", Function::Absolute},
     {"incremental", Function::Incremental},
     {"set-position", Function::SetPosition},
     {"feed-per-minute", Function::FeedPerMinute},
+    {"feed-per-revolution", Function::FeedPerRevolution},
     {"end", Function::ProgramEnd},
+    {"leave", Function::ProgramEnd},
+    {"tool-change", Function::ToolChange},
     {"spindle-right", Function::SpindleClockwise},
     {"spindle-left", Function::SpindleCounterClockwise},
     {"spindle-off", Function::SpindleOff},
@@ -36,7 +42,8 @@ constexpr std::pair<std::string_view, Function> kEffects[] = {
     {"coolant-off", Function::CoolantOff},
 };
 
-constexpr int kGrid = 6; // decimals: sums of coordinates lie on a grid of a nanometre
+constexpr int kGrid = 6;                // decimals: sums of coordinates lie on a grid of a nanometre
+constexpr double kArcTolerance = 0.005; // mm that the centre of an arc may be off
 
 class Blocks {
 public:
@@ -129,9 +136,11 @@ Profile::Profile(const stdlib::MikroprogControl& of) : control(of) {
   machine.decimals = kGrid;
   machine.integerDigits = 9; // what fits a word is for the checks
   machine.locals = 0;
-  machine.common = {{variableOf(0), variableOf(999), false}};
+  machine.arcTolerance = kArcTolerance;
+  machine.common = {{variableOf(0), variableOf(kLastKept), false}};
   machine.sequenceLast = 999'999'999;
   machine.alarms = {{stdlib::Alarm::NoFeed, 0, "a feed move with F0", "", ""},
+                    {stdlib::Alarm::ArcRadius, 0, "the end of the arc is not on it", "", ""},
                     {stdlib::Alarm::NoSuchSequence, 0, "no block has this number", "", ""}};
   for (const stdlib::MikroprogFunction& function : of.functions) {
     const auto effect = std::find_if(std::begin(kEffects), std::end(kEffects),
@@ -145,8 +154,41 @@ Profile::Profile(const stdlib::MikroprogControl& of) : control(of) {
   dialect.skipsAtOwnSpeed = true;
   dialect.numbersAlarms = false;
   dialect.firstParameter = variableOf(0);
+  dialect.lastParameter = variableOf(kLastParameter);
+  dialect.isLathe = !of.hasAxis('Y');
+  dialect.showsDiameters = of.isDiameter('X');
   dialect.dwellLetter = 'E';
   dialect.holdsTool = true;
+}
+
+bool preset(Machine& machine, const Profile& profile, std::string_view name, double value) {
+  const auto number = [](std::string_view digits) -> std::optional<std::uint32_t> {
+    std::uint32_t out = 0;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), out);
+    if (error != std::errc() || end != digits.data() + digits.size()) return std::nullopt;
+    return out;
+  };
+  if (name.starts_with('P')) {
+    const auto parameter = number(name.substr(1));
+    return parameter && *parameter <= kLastParameter && machine.preset(variableOf(*parameter), value);
+  }
+  if (name.starts_with('O')) {
+    const auto condition = number(name.substr(1));
+    const bool computed = condition && *condition >= 10 && *condition <= 16; // from P90 and a place
+    return condition && *condition < kStored - kCondition && !computed && (value == 0 || value == 1) &&
+           profile.control.condition(*condition) != nullptr &&
+           machine.preset(variableOf(kCondition + *condition), value);
+  }
+  const std::size_t point = name.find('.');
+  if (!name.starts_with('G') || point == std::string_view::npos || name.size() != point + 2) return false;
+  const auto code = number(name.substr(1, point - 1));
+  const stdlib::MikroprogFunction* const function = code ? profile.control.find('G', *code) : nullptr;
+  const char axis = name.back();
+  if (function == nullptr || function->function != "system-stored" || !profile.control.hasAxis(axis))
+    return false;
+  const std::size_t at = std::string_view(kAxisLetters).find(axis);
+  return machine.preset(variableOf(storedShift(*code, at)),
+                        profile.control.isDiameter(axis) ? value / 2 : value);
 }
 
 std::vector<SkipMoveUse> skipMoves(const ir::Program& program, const stdlib::MikroprogControl& control) {

@@ -6,6 +6,7 @@
 #include "ir/Program.h"
 #include "sim/machine/Bytecode.h"
 #include "sim/machine/Dialect.h"
+#include "sim/machine/Machine.h"
 #include "stdlib/Control.h"
 #include "stdlib/MikroprogControl.h"
 #include "support/Source.h"
@@ -14,6 +15,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace dotek::sim::mikroprog {
@@ -40,6 +42,26 @@ constexpr std::uint32_t parameterOf(std::uint32_t variable) {
   return variable - 1;
 }
 inline constexpr std::uint32_t kAccumulator = 90; // P90: of conditions and files
+
+// What the control keeps beside the machine's own state, as parameters that no program can name; without a
+// value it is not known, or off.
+enum Kept : std::uint32_t {
+  kRadius = 1000,    // 1: X is a radius (G24)
+  kShift,            // code of the shift in force: 51 to 55
+  kSurface,          // greatest speed of the G96 in force
+  kMotionLost,       // 1: since a G33 no motion is known to be in force
+  kCondition = 1100, // and the number of O: 1 where it holds, 0 where not
+  kStored = 1200,    // of G52 and on, ten a shift: its axes in the order of kAxisLetters
+  kLastKept = 1299
+};
+constexpr std::uint32_t storedShift(std::uint32_t code, std::size_t axis) {
+  return kStored + 10 * (code - 52) + static_cast<std::uint32_t>(axis);
+}
+inline constexpr std::uint32_t kLastParameter = 999; // that a program can name
+
+// What a user may set before the program begins: "P5", "O1", "G52.Z" (of a lathe X as a diameter). false: it
+// is none of these, or the machine does not have it.
+bool preset(Machine& machine, const Profile& profile, std::string_view name, double value);
 
 // What a G31 is, by the blocks that it leads to.
 enum class SkipUse : std::uint8_t {

@@ -282,7 +282,7 @@ namespace {
 
 // As the control shows it.
 std::string shownText(Position position, const Machine& machine) {
-  if (machine.countsDiameters()) position[0] *= 2;
+  if (machine.showsDiameters()) position[0] *= 2;
   return positionText(position, machine.movedAxes());
 }
 
@@ -319,7 +319,8 @@ std::string summary(Machine& machine, const Run* run, const SimWorld& world, Ses
     const std::optional<std::uint32_t> first = machine.dialect().firstParameter;
     std::string variables;
     for (const auto& [number, value] : machine.written())
-      if (!isUnknown(value)) // what a macro left there and no source tells is no value
+      if (!isUnknown(value) && (!first || number <= machine.dialect().lastParameter))
+        // what a macro left there and no source tells is no value
         variables += fmt::format("{}\"{}\": {}", variables.empty() ? "" : ", ", number - first.value_or(0),
                                  std::isfinite(value) ? numberText(value) : "null");
     out += fmt::format("  \"{}\": {{{}}},\n", first ? "parameters" : "variables", variables);

@@ -215,7 +215,11 @@ void SimWorld::attach(Machine& machine) {
   machineNow_ = &machine;
   if (const stdlib::Control& control = machine.control(); subject_ == "program")
     control_ = control.title.empty() ? control.name : fmt::format("{} ({})", control.title, control.name);
-  position_ = [&machine] { return machine.position(); };
+  position_ = [&machine] {
+    Position at = machine.position();
+    if (machine.dialect().showsDiameters) at[0] *= 2;
+    return at;
+  };
   start_ = startOf(machine);
   startSystem_ = machine.activeSystem().index;
   if (machine_)
@@ -243,7 +247,7 @@ void SimWorld::attach(Machine& machine) {
   frame_ = [&machine] { return frameOf(machine); };
   work_ = [&machine] {
     const Position& at = machine.position();
-    return Point3{at[0], at[1], at[2]};
+    return Point3{machine.dialect().showsDiameters ? 2 * at[0] : at[0], at[1], at[2]};
   };
   decimals_ = machine.dialect().wordDecimals.value_or(machine.control().decimals);
   if (world_) world_->toolChanged(machine.tool());
@@ -275,6 +279,11 @@ void SimWorld::checkSystem() {
 
 void SimWorld::toolChanged(std::uint32_t number) {
   stopSpindle();
+  // The correction of the tool is in force with it, and coordinates go on at its end.
+  const CuttingTool* const tool = machine_ ? machine_->devices.find(number) : nullptr;
+  const bool isProbe = machine_ && machine_->devices.probeTool == number;
+  if ((tool != nullptr || isProbe) && machineNow_ != nullptr && machineNow_->dialect().holdsTool)
+    machineNow_->holdTool(tool != nullptr ? tool->length : machine_->probe.length);
   if (world_) world_->toolChanged(number);
 }
 

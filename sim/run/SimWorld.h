@@ -57,6 +57,9 @@ public:
 
   // What the flags and the machine's file say of what is set before the run.
   const Setup& setup() const { return setup_; }
+  const std::optional<std::array<double, 3>>& partZero() const {
+    return partZero_;
+  } // where it is meant to be
   // Sets it on the machine; false: reported. Where the program begins is for attach().
   bool prepare(Machine& machine) const;
   // Where the machine is before the program.
@@ -265,7 +268,7 @@ private:
   std::vector<bool> protected_; // of the calls that are open: within a protected move
   std::function<bool()> safe_, asks_;
   std::function<SourceRange()> rangeNow_;
-  const Machine* machineNow_ = nullptr;
+  Machine* machineNow_ = nullptr;
   bool spindleStopped_ = false; // by a change of tools or an orientation, whatever M3 said before
   std::pair<std::uint8_t, double> spindleSeen_{0, 0}; // direction and speed, as last looked at
   std::vector<double> lengths_;                       // of the tool, as the calls that are open began

@@ -342,9 +342,9 @@ TEST_CASE("mikroprog: the machine refuses what it does not know") {
   CHECK(ends("N10 G23 L10 O10\nN20 M30\n") == Ending::Inconclusive); // no P90
   CHECK(ends("N10 M26 @A.SOU\nN20 M30\n") == Ending::Inconclusive);
   CHECK(ends("N10 G0 XP7\nN20 M30\n") == Ending::Inconclusive);
-  CHECK(ends("N10 G98\nN20 M30\n") == Ending::Inconclusive);
   CHECK(ends("N10 G73 Z1\nN20 M30\n") == Ending::Inconclusive);
-  CHECK(ends("N10 G2 X1 Z1 R1\nN20 M30\n") == Ending::Inconclusive);
+  CHECK(ends("N10 G2 X1 Y1 I1 J0 F100\nN20 M30\n") == Ending::Inconclusive); // Q3
+  CHECK(ends("N10 M60 H1\nN20 M30\n") == Ending::Inconclusive);
   CHECK(ends("N10 G0 X1\n") == Ending::Inconclusive); // no M30
   CHECK(ends("N10 G91\nN20 G31 Z-9 L30\nN30 M30\n", &part) == Ending::Inconclusive);
   CHECK(ends("N10 G91 G31 Z-9 L30\nN30 M30\n", &part) == Ending::Inconclusive);

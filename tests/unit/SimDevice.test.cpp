@@ -90,11 +90,29 @@ TEST_CASE("device: the commands of the ram's page do what it says, and its numbe
   CHECK(page.find("The limit of 0.01 mm is kept.") != std::string::npos);
   CHECK(page.find("NOT KEPT") == std::string::npos);
   CHECK(page.find("(<ram.svg>)") != std::string::npos);
-  CHECK(readAll(scratch / "ram.svg").find("<polyline") != std::string::npos);
+  CHECK(page.find("The run was not clean") == std::string::npos);
+  CHECK(page.find("| -700 |") != std::string::npos); // the end of the comparison, not a whole step on
+  const std::string picture = readAll(scratch / "ram.svg");
+  CHECK(picture.find("<polyline") != std::string::npos);
+  CHECK(picture.find(">after, both ways<") != std::string::npos); // no curve lies on another
+  CHECK(picture.find(">after +<") == std::string::npos);
   // Y0 above the face: the magnitude of a negative reading grows with the sag.
   const CommandResult sign = runIn(scratch, commands[2].second);
   CHECK(sign.status == 1);
   CHECK(has(sign, "NO READING BELOW THE WANTED"));
+
+  // Without the dwell that lets the voltage settle the page says that its numbers come from a faulty run.
+  const std::string reading = "examples/ram-compensation/macros/O9070.nc";
+  const std::string whole = readAll(scratch / reading);
+  std::string hasty = whole;
+  replace(hasty, "G4 X5. (UNTIL THE VOLTAGE HOLDS)\n", "");
+  scratch.write(reading, hasty);
+  CHECK(runIn(scratch, commands[1].second).status == 1);
+  const std::string faulty = readAll(scratch / "ram.md");
+  CHECK(faulty.find("**The run was not clean") != std::string::npos);
+  CHECK(faulty.find("O9070.nc` line ") != std::string::npos);
+  CHECK(faulty.find("before `voltage` of ") != std::string::npos);
+  scratch.write(reading, whole);
 
   // Another table: another page.
   std::string fine = readAll(scratch / "examples/ram-compensation/fine-out.csv");
