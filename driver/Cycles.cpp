@@ -4,6 +4,8 @@
 #include "frontend/cycle/Words.h"
 #include "frontend/macrob/Format.h"
 #include "frontend/macrob/Parse.h"
+#include "frontend/mikroprog/Format.h"
+#include "frontend/mikroprog/Parse.h"
 #include "lint/Suppressions.h"
 #include "project/CycleCatalogue.h"
 #include "project/CycleFiles.h"
@@ -24,6 +26,7 @@ namespace dotek::driver {
 
 namespace cycle = frontend::cycle;
 namespace macrob = frontend::macrob;
+namespace mikroprog = frontend::mikroprog;
 
 namespace {
 
@@ -102,6 +105,28 @@ Layout layoutOf(const std::string& path, const SourceFile& before, const std::st
   return {std::move(text), changes};
 }
 
+std::nullopt_t wouldDiffer(const std::string& path, FileId file, Session& session) {
+  session.diagnostics().report<diag::NotLaidOut>({file, 0, 0}, path, "would read otherwise afterwards",
+                                                 "this is a defect of Dotek; leave the file as it is");
+  return std::nullopt;
+}
+
+// A program of Mikroprog (docs/mikroprog.md). nullopt: reported.
+std::optional<Layout> sufLayout(const std::string& path, Session& session) {
+  const auto id = session.read(path, Encoding::Cp852);
+  if (!id) return std::nullopt;
+  SourceMap& sources = session.sources();
+  const mikroprog::Program program = mikroprog::parse(*id, sources, session.diagnostics());
+  const std::optional<std::string> text = mikroprog::format(program, sources);
+  if (!text) return std::nullopt; // the reader has said why
+  const SourceFile& before = sources.file(*id);
+  const FileId again = sources.add(SourceFile(before.name(), *text, before.encoding()));
+  Diagnostics unheard;
+  if (!mikroprog::sameProgram(program, mikroprog::parse(again, sources, unheard)))
+    return wouldDiffer(path, *id, session);
+  return layoutOf(path, sources.file(*id), *text, session.limits());
+}
+
 // A file of macro programs in the one style (docs/macrob.md). nullopt: reported.
 std::optional<Layout> programLayout(const std::string& path, Session& session) {
   const auto id = session.read(path, Encoding::Cp1250);
@@ -126,11 +151,7 @@ std::optional<Layout> programLayout(const std::string& path, Session& session) {
   const FileId again = sources.add(SourceFile(before.name(), *text, before.encoding()));
   Diagnostics unheard;
   const macrob::File after = macrob::parse(again, sources, session.limits(), unheard, macrob::Text::Program);
-  if (meaning != macrob::dumpAst(after, sources, false)) {
-    session.diagnostics().report<diag::NotLaidOut>({*id, 0, 0}, path, "would read otherwise afterwards",
-                                                   "this is a defect of Dotek; leave the file as it is");
-    return std::nullopt;
-  }
+  if (meaning != macrob::dumpAst(after, sources, false)) return wouldDiffer(path, *id, session);
   return layoutOf(path, before, *text, session.limits());
 }
 
@@ -161,11 +182,13 @@ Outcome layOut(const CycleOptions& options) {
     std::vector<std::string> inputs;
     if (hasInputs(options, "fmt", session))
       for (const std::string& path : options.inputs) {
-        const auto kind =
-            kindAmong(path, {InputKind::Cycle, InputKind::Nc}, "a cycle or an NC program", session);
+        const auto kind = kindAmong(path, {InputKind::Cycle, InputKind::Nc, InputKind::Suf},
+                                    "a cycle or an NC program", session);
         if (!kind) continue;
         std::optional<Layout> laid;
-        if (kind == InputKind::Nc)
+        if (kind == InputKind::Suf)
+          laid = sufLayout(path, session);
+        else if (kind == InputKind::Nc)
           laid = programLayout(path, session);
         else if (const cycle::File* file = cycles.load(path); file != nullptr && !file->hasErrorNodes)
           laid = layoutOf(path, session.sources().file(file->file), cycle::layOut(*file), session.limits());
