@@ -13,6 +13,13 @@ template <class Visit> void forEachSufBlock(const Project& project, const Visit&
       if (!block.line->unread) visit(*reading, block);
 }
 
+// The check of a rule that looks at one program at a time.
+template <void (*CheckProgram)(const mikroprog::Reading&, Report&)>
+void checkSufPrograms(const Project& project, Report& report) {
+  for (const mikroprog::Reading* reading : project.sufPrograms)
+    CheckProgram(*reading, report);
+}
+
 // The check of a rule that commands other than lint apply, too.
 template <auto Find> void reportFound(const Project& project, Report& report) {
   for (const mikroprog::Reading* reading : project.sufPrograms)

@@ -82,6 +82,17 @@ void addMikroprog(std::vector<Construct>& out) {
              return fmt::format("N{} G4 H1\nN{} M17\n", 100001 + 2 * i, 100002 + 2 * i);
            });
   });
+  linted("calls within calls", 500, [](long n) {
+    return "N1 G26 L100001\nN2 M30\n" + repeated(n, [](long i) {
+             return fmt::format("N{} G26 L{}\nN{} M17\n", 100001 + 2 * i, 100003 + 2 * i, 100002 + 2 * i);
+           });
+  });
+  linted("jumps out of subprograms", 500, [](long n) {
+    return repeated(n, [](long i) { return fmt::format("N{} G26 L{}\n", i + 1, 100001 + 2 * i); }) +
+           "N99999 M30\n" + repeated(n, [](long i) {
+             return fmt::format("N{} G27 L{}\nN{} M17\n", 100001 + 2 * i, i + 1, 100002 + 2 * i);
+           });
+  });
   linted("comments", 3000, [](long n) { return times(n, ";note\n"); });
   linted("a long comment", 20000, [](long n) { return ";" + times(n, "note ") + "\n"; });
   linted("texts", 2000,

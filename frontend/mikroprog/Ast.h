@@ -41,13 +41,22 @@ struct Line {
   std::optional<Assignment> assignment;
   std::vector<Word> words;
   std::vector<std::size_t> firsts;    // places in `words` of the first word of each address
+  std::uint32_t addresses = 0;        // bits of those that there are; most questions are for others
   std::optional<std::string> comment; // bytes after `;`
   SourceRange commentRange;           // `;` included
   bool unread = false;                // reported; words and assignment are what precedes the defect
   SourceRange range;
 
-  const Word* find(char address) const; // the first; nullptr: none
+  static constexpr std::uint32_t bitOf(char address) {
+    return std::uint32_t(1) << (address >= 'A' && address <= 'Z' ? address - 'A' : 26);
+  }
+  const Word* find(char address) const { // the first; nullptr: none
+    return (addresses & bitOf(address)) == 0 ? nullptr : first(address);
+  }
   void add(Word word);
+
+private:
+  const Word* first(char address) const;
 };
 
 struct Program {

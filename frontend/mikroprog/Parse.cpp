@@ -36,12 +36,25 @@ std::string_view fanucSyntax(std::string_view text) {
   return "";
 }
 
+// The room of its words is kept.
+void clear(Line& line) {
+  Line empty;
+  empty.words.swap(line.words);
+  empty.firsts.swap(line.firsts);
+  empty.words.clear();
+  empty.firsts.clear();
+  line = std::move(empty);
+}
+
 class LineReader {
 public:
-  LineReader(FileId file, std::uint32_t begin, std::string_view text, Diagnostics& diagnostics)
-      : file_(file), begin_(begin), text_(text), diagnostics_(diagnostics) {}
+  // Into `line`, whose room serves one line after the other.
+  LineReader(FileId file, std::uint32_t begin, std::string_view text, Diagnostics& diagnostics, Line& line)
+      : file_(file), begin_(begin), text_(text), diagnostics_(diagnostics), line_(line) {
+    clear(line);
+  }
 
-  Line read() {
+  void read() {
     line_.range = {file_, begin_, begin_ + static_cast<std::uint32_t>(text_.size())};
     // First, so that a line that cannot be read keeps its comment.
     if (const std::size_t comment = text_.find(';'); comment != std::string_view::npos) {
@@ -55,13 +68,12 @@ public:
       line_.numberRange = range(from);
       if (!number) {
         fail(line_.numberRange);
-        return std::move(line_);
+        return;
       }
       line_.number = number;
     }
     for (blanks(); at_ < text_.size() && text_[at_] != ';'; blanks())
-      if (!item()) return std::move(line_);
-    return std::move(line_);
+      if (!item()) return;
   }
 
 private:
@@ -183,7 +195,7 @@ private:
   std::string_view text_;
   Diagnostics& diagnostics_;
   std::size_t at_ = 0;
-  Line line_;
+  Line& line_;
 };
 
 std::string place(const SourceMap& sources, SourceRange range) {
@@ -193,7 +205,7 @@ std::string place(const SourceMap& sources, SourceRange range) {
 
 } // namespace
 
-const Word* Line::find(char address) const {
+const Word* Line::first(char address) const {
   const auto at = std::find_if(firsts.begin(), firsts.end(),
                                [&](std::size_t first) { return words[first].address == address; });
   return at == firsts.end() ? nullptr : &words[*at];
@@ -201,6 +213,7 @@ const Word* Line::find(char address) const {
 
 void Line::add(Word word) {
   if (find(word.address) == nullptr) firsts.push_back(words.size());
+  addresses |= bitOf(word.address);
   words.push_back(std::move(word));
 }
 
@@ -208,12 +221,15 @@ Program parse(FileId file, const SourceMap& sources, Diagnostics& diagnostics) {
   const SourceFile& source = sources.file(file);
   Program out;
   out.file = file;
+  out.lines.reserve(source.lineCount());
+  Line line;
   for (std::uint32_t number = 1; number <= source.lineCount(); ++number) {
     std::string_view text = source.line(number);
     while (!text.empty() && (text.back() == ' ' || text.back() == '\t' || text.back() == '\x1a'))
       text.remove_suffix(1);
     if (text.empty()) continue;
-    out.lines.push_back(LineReader(file, source.lineStart(number), text, diagnostics).read());
+    LineReader(file, source.lineStart(number), text, diagnostics, line).read();
+    out.lines.push_back(line); // a copy has no more room than it needs
   }
   return out;
 }

@@ -42,16 +42,11 @@ void checkProgram(const mikroprog::Reading& reading, Report& report) {
   }
 }
 
-void check(const Project& project, Report& report) {
-  for (const mikroprog::Reading* reading : project.sufPrograms)
-    checkProgram(*reading, report);
-}
-
 } // namespace
 
 DOTEK_LINT_RULE(suf_accumulator){
     .severity = Severity::Warning,
-    .check = check,
+    .check = checkSufPrograms<checkProgram>,
 };
 
 } // namespace dotek::lint::rule

@@ -31,16 +31,11 @@ void checkProgram(const mikroprog::Reading& reading, Report& report) {
   }
 }
 
-void check(const Project& project, Report& report) {
-  for (const mikroprog::Reading* reading : project.sufPrograms)
-    checkProgram(*reading, report);
-}
-
 } // namespace
 
 DOTEK_LINT_RULE(suf_parameter_unset){
     .severity = Severity::Warning,
-    .check = check,
+    .check = checkSufPrograms<checkProgram>,
 };
 
 } // namespace dotek::lint::rule

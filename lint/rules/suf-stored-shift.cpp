@@ -45,16 +45,11 @@ void checkProgram(const mikroprog::Reading& reading, Report& report) {
         code->function->number - 2);
 }
 
-void check(const Project& project, Report& report) {
-  for (const mikroprog::Reading* reading : project.sufPrograms)
-    checkProgram(*reading, report);
-}
-
 } // namespace
 
 DOTEK_LINT_RULE(suf_stored_shift){
     .severity = Severity::Warning,
-    .check = check,
+    .check = checkSufPrograms<checkProgram>,
 };
 
 } // namespace dotek::lint::rule

@@ -10,16 +10,11 @@ void checkProgram(const mikroprog::Reading& reading, Report& report) {
                 "G5 without L: where the condition does not come in time, the program ends here");
 }
 
-void check(const Project& project, Report& report) {
-  for (const mikroprog::Reading* reading : project.sufPrograms)
-    checkProgram(*reading, report);
-}
-
 } // namespace
 
 DOTEK_LINT_RULE(suf_wait_no_target){
     .severity = Severity::Warning,
-    .check = check,
+    .check = checkSufPrograms<checkProgram>,
 };
 
 } // namespace dotek::lint::rule

@@ -10,16 +10,11 @@ void checkProgram(const mikroprog::Reading& reading, Report& report) {
       report.at(speed->range, "S0 stops the spindle; M5 says that to the reader");
 }
 
-void check(const Project& project, Report& report) {
-  for (const mikroprog::Reading* reading : project.sufPrograms)
-    checkProgram(*reading, report);
-}
-
 } // namespace
 
 DOTEK_LINT_RULE(suf_zero_speed){
     .severity = Severity::Note,
-    .check = check,
+    .check = checkSufPrograms<checkProgram>,
 };
 
 } // namespace dotek::lint::rule
