@@ -319,8 +319,30 @@ bool isBare(const Block& block) {
 
 } // namespace
 
+namespace {
+
+// Misprints of text recognition with one certain repair. Who says that a file is a listing says that its text
+// is not the one that ran, so `lint --fix` may write what did.
+void repairListing(FileId file, std::size_t from, Diagnostics& diagnostics) {
+  static constexpr std::string_view kCertain[] = {
+      "letter-o-for-zero",         "zero-for-letter-o",    "decimal-comma",        "do-as-offset",
+      "condition-bracket-missing", "word-needs-brackets",  "bracketed-assignment", "degree-sign",
+      "block-over-lines",          "comment-over-lines",   "star-for-hash",        "variable-number-form",
+      "stray-if",
+  };
+  for (std::size_t i = from; i < diagnostics.all().size(); ++i) {
+    Diagnostic& one = diagnostics.all()[i];
+    if (one.fix && one.range.file == file &&
+        std::find(std::begin(kCertain), std::end(kCertain), one.code) != std::end(kCertain))
+      one.fix->applicability = Fix::Applicability::Safe;
+  }
+}
+
+} // namespace
+
 File parse(FileId file, const SourceMap& sources, const Limits& limits, Diagnostics& diagnostics, Text text,
            Reader reader) {
+  const std::size_t reported = diagnostics.all().size();
   Lines lines = splitLines(file, sources, limits, diagnostics, text);
   File out;
   out.file = file;
@@ -377,6 +399,7 @@ File parse(FileId file, const SourceMap& sources, const Limits& limits, Diagnost
     repairLoops(program, diagnostics);
     out.hasErrors = out.hasErrors || diagnostics.all().size() != before;
   }
+  if (text == Text::Listing) repairListing(file, reported, diagnostics);
   markTargets(out);
   return out;
 }
