@@ -59,8 +59,11 @@ private:
     ConvertOptions convert = convertOptionsOf(options_);
     convert.common.host.clear(); // the cases take them
     convert.common.assume.erase("probe-on");
-    return checkedTarget(convert, true, false, "verify", "what the programs are compared with",
-                         session_.diagnostics());
+    const Target* const target = checkedTarget(convert, true, false, "verify",
+                                               "what the programs are compared with", session_.diagnostics());
+    if (target != nullptr && target->programs == nullptr && target->writesPrograms)
+      session_.diagnostics().report<diag::ProgramTarget>({}, options_.to);
+    return target;
   }
 
   const VerifyOptions& options_;

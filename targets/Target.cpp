@@ -90,7 +90,7 @@ const Target* checkedTarget(const ConvertOptions& options, bool programs, bool c
   else
     checkTargetOptions(*target, options, diagnostics);
   refuseOptions(options, programs, cycles, diagnostics);
-  if (programs && target != nullptr && target->programs == nullptr)
+  if (programs && target != nullptr && target->programs == nullptr && !target->writesPrograms)
     diagnostics.report<diag::ProgramTarget>({}, options.to);
   return target;
 }

@@ -50,6 +50,7 @@ struct Target {
   bool takesPathAlone = false;  // verify takes a cycle without a Prog: its path alone
   bool takesCycleFiles = false; // convert takes files of the cycle language
   bool writesFolder = false;    // several files for each cycle; the last has the blocks
+  bool writesPrograms = false;  // convert takes programs of macro B, although verify does not
   // Where it fixes values: host inputs that every program needs.
   std::span<const std::string_view> hosts = {};
 

@@ -2,10 +2,14 @@
 #include "backends/mikroprog/TargetProgram.h"
 
 #include "backends/mikroprog/Emit.h"
+#include "backends/mikroprog/Programs.h"
 #include "backends/mikroprog/TargetCycle.h"
 #include "frontend/gibbs/Ast.h"
 #include "ir/Fold.h"
 #include "ir/Walk.h"
+#include "project/Lowering.h"
+#include "project/Programs.h"
+#include "project/Settings.h"
 #include "stdlib/HostInputs.h"
 #include "support/Decimal.h"
 #include "support/messages/Commands.h"
@@ -17,6 +21,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <filesystem>
 
 namespace dotek::targets {
 
@@ -132,6 +137,45 @@ public:
     return options_.control.empty() || loadMikroprogControl(options_.control, session_);
   }
 
+  bool beginPrograms() override {
+    Diagnostics& diagnostics = session_.diagnostics();
+    if (options_.control.empty())
+      diagnostics.report<diag::MissingOption>(
+          {}, "convert", "--control NAME",
+          "the control to write programs for: mikroprog-s280 or mikroprog-mill");
+    if (options_.verify) diagnostics.report<diag::ProgramTarget>({}, options_.to);
+    if (diagnostics.hasErrors()) return false;
+    programControl_ = loadMikroprogControl(options_.control, session_);
+    return programControl_.has_value();
+  }
+
+  void program(const std::string& path) override {
+    const std::string from =
+        options_.fromControl.empty() ? settingsOf(path, session_).control : options_.fromControl;
+    if (from.empty()) {
+      session_.diagnostics().report<diag::MissingOption>({}, "convert", "--from-control NAME",
+                                                         "the control that the program is written for");
+      return;
+    }
+    const auto source = loadControl(from, session_);
+    const auto id = source ? session_.read(path, Encoding::Cp1250) : std::nullopt;
+    if (!id) return;
+    SourceRange leader;
+    const auto programs = loadForTranslation(*id, *source, session_, leader);
+    if (!programs) return;
+    if (programs->programs.empty()) {
+      session_.diagnostics().report<diag::NoProgram>({*id, 0, 0}, path, "written");
+      return;
+    }
+    if (leader.begin < leader.end) session_.diagnostics().report<diag::LeaderLeftOut>(leader);
+    const std::string stem = std::filesystem::path(path).stem().generic_string();
+    const auto lines =
+        mikroprog::emitProgram(*programs, {*programControl_, *source, stem}, session_.diagnostics());
+    if (lines)
+      context_.result.add(mikroprog::shortFileName(stem) + "." + programControl_->programEnding, *lines,
+                          "\r\n");
+  }
+
   bool cycle(const CycleFolder& folder, std::size_t /*index*/) override {
     std::optional<MikroprogProgram> program = write(folder);
     if (!program) return false;
@@ -214,6 +258,7 @@ private:
   }
 
   std::map<std::string, std::string> written_; // names of files, by folder
+  std::optional<stdlib::MikroprogControl> programControl_;
 };
 
 void checkDatum(const std::string& datum, Diagnostics& diagnostics) {
@@ -234,6 +279,7 @@ DOTEK_TARGET(mikroprog) = {
     .ownControls = true,
     .fixesValues = true,
     .takesCycleFiles = true,
+    .writesPrograms = true,
     .hosts = kHosts,
     .convert = conversionBy<MikroprogConversion>,
     .verify = mikroprogVerification,
