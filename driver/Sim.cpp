@@ -164,13 +164,12 @@ private:
     return true;
   }
 
-  std::string placeOf(SourceRange range) const {
+  static std::string placeOf(SourceRange range, const SourceMap& sources) {
     if (!range.hasPlace()) return "";
-    return fmt::format("`{}` line {}: ", session_.sources().file(range.file).name(),
-                       session_.sources().line(range));
+    return fmt::format("`{}` line {}: ", sources.file(range.file).name(), sources.line(range));
   }
 
-  void addReport(const sim::Machine& machine, Outcome& out) {
+  void addReport(const sim::Machine& machine, Outcome& out) const {
     if (!device_.report || !running_) return;
     sim::DeviceReportHead head;
     head.program = options_.program;
@@ -180,10 +179,10 @@ private:
     head.complete =
         machine.end().ending == sim::Ending::ProgramEnd || machine.end().ending == sim::Ending::TextEnd;
     head.date = options_.date;
-    for (const Diagnostic& one : diagnostics().all())
+    for (const Diagnostic& one : out.diagnostics.all())
       if (one.severity != Severity::Note)
-        head.findings.push_back(fmt::format("{}{}: {} [{}]", placeOf(one.range), severityName(one.severity),
-                                            one.message, one.code));
+        head.findings.push_back(fmt::format("{}{}: {} [{}]", placeOf(one.range, out.sources),
+                                            severityName(one.severity), one.message, one.code));
     std::string picture = sim::devicePicture(*running_);
     if (!picture.empty()) head.picture = device_.picture;
     out.files.push_back({"report", sim::deviceReport(head, *running_, machine)});
