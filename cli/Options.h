@@ -69,6 +69,7 @@ struct Raw {
   bool keepGoing = false;
   bool wholePost = false;
   bool verify = false;
+  std::string simDatum; // --datum of sim, a place; that of convert is a way
 };
 
 // NAME=VALUE in two; throws UsageError where there is no name or no `=`.

@@ -77,7 +77,7 @@ void addSim(CLI::App& app, Raw& raw) {
   sim->add_option("--active-system", raw.activeSystem,
                   "work system in force as the program begins, 54 to 59 (54)")
       ->type_name("N");
-  sim->add_option("--datum", raw.datum,
+  sim->add_option("--datum", raw.simDatum,
                   "of Mikroprog: zero of the active system in coordinates of the machine, mm; `part`: where "
                   "the part is meant to be")
       ->type_name("X,Z|X,Y,Z|part");
@@ -167,7 +167,7 @@ driver::SimOptions simOf(const Raw& raw) {
   driver::SimOptions out;
   out.setup = setupOf(raw);
   out.activeSystem = static_cast<std::uint8_t>(countOf("--active-system", raw.activeSystem, 54, 54, 59) - 54);
-  if (!raw.datum.empty()) out.setup.zeros.push_back(datumOf(raw.datum));
+  if (!raw.simDatum.empty()) out.setup.zeros.push_back(datumOf(raw.simDatum));
   out.svg = !raw.svgFile.empty();
   out.html = !raw.htmlFile.empty();
   if (!raw.part.empty()) out.part = raw.part;
