@@ -325,9 +325,18 @@ namespace {
 // is not the one that ran, so `lint --fix` may write what did.
 void repairListing(FileId file, std::size_t from, Diagnostics& diagnostics) {
   static constexpr std::string_view kCertain[] = {
-      "letter-o-for-zero",         "zero-for-letter-o",    "decimal-comma",        "do-as-offset",
-      "condition-bracket-missing", "word-needs-brackets",  "bracketed-assignment", "degree-sign",
-      "block-over-lines",          "comment-over-lines",   "star-for-hash",        "variable-number-form",
+      "letter-o-for-zero",
+      "zero-for-letter-o",
+      "decimal-comma",
+      "do-as-offset",
+      "condition-bracket-missing",
+      "word-needs-brackets",
+      "bracketed-assignment",
+      "degree-sign",
+      "block-over-lines",
+      "comment-over-lines",
+      "star-for-hash",
+      "variable-number-form",
       "stray-if",
   };
   for (std::size_t i = from; i < diagnostics.all().size(); ++i) {
