@@ -107,15 +107,27 @@ public:
     return kDone;
   }
 
-  // The program of a post; the map beside it.
+  // The program of a post; the map beside it. What --check finds is in the program, which is written all the
+  // same.
   int posted(const driver::Outcome& outcome, const Arguments& arguments) {
-    if (arguments.mapFile.empty() || outcome.status != 0) return result(outcome, arguments);
+    const driver::RunPostOptions& options = arguments.runPost;
+    const bool found = options.check && !options.diff && !options.expect && outcome.status == kInputError &&
+                       !outcome.output.empty();
+    if (outcome.status != 0 && !found) return result(outcome, arguments);
     err_ << renderText(outcome.diagnostics, outcome.sources, maxErrors_, errColors_);
-    const std::string map = renderLineMap(outcome.maps, outcome.sources);
-    return write({{orStandardOutput(arguments.output), &outcome.output}, {arguments.mapFile, &map}}, outcome,
-                 arguments)
-               ? kDone
-               : kUsage;
+    if (!outcome.summary.empty()) err_ << outcome.summary << "\n";
+    std::vector<NamedText> texts = {{orStandardOutput(arguments.output), &outcome.output}};
+    std::string map;
+    if (!arguments.mapFile.empty()) {
+      map = renderLineMap(outcome.maps, outcome.sources);
+      texts.push_back({arguments.mapFile, &map});
+    }
+    // The program is no input, though findings are placed in it.
+    driver::Outcome inputs;
+    for (FileId file = 0; file < outcome.sources.size(); ++file)
+      if (const SourceFile& one = outcome.sources.file(file); !options.check || one.name() != options.name)
+        inputs.sources.add(one);
+    return write(texts, inputs, arguments) ? outcome.status : kUsage;
   }
 
   // Programs to standard output, `-o` or `-d`; the map beside them.

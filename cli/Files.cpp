@@ -78,7 +78,8 @@ std::vector<std::string> inputsOf(const Arguments& arguments) {
   for (const auto& one :
        {arguments.lint.baseline, arguments.source.prog, arguments.common.job, arguments.sim.part,
         arguments.sim.machine, arguments.device.device, arguments.verify.part, arguments.verify.machine,
-        arguments.verify.translation, arguments.runPost.diff, arguments.runPost.expect})
+        arguments.verify.translation, arguments.runPost.diff, arguments.runPost.expect,
+        arguments.runPost.part, arguments.runPost.machine})
     if (one) out.push_back(*one);
   std::error_code error;
   for (const std::string& data : arguments.common.data)

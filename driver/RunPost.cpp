@@ -1,5 +1,6 @@
 #include "driver/RunPost.h"
 #include "driver/Command.h"
+#include "driver/PostCheck.h"
 #include "posts/PostJob.h"
 #include "posts/PostRun.h"
 #include "support/Files.h"
@@ -76,7 +77,7 @@ class RunPostCommand {
 public:
   RunPostCommand(const RunPostOptions& options, Session& session) : options_(options), session_(session) {
     job_.properties = options.properties;
-    job_.map = options.map;
+    job_.map = options.map || options.check;
     job_.most = session.limits().scriptOutput;
   }
 
@@ -100,7 +101,9 @@ public:
       compare(*options_.expect, wanted, *text, output);
     }
     const bool differs = differs_;
-    Outcome outcome = outcomeOf(session_, std::move(output), differs);
+    Outcome outcome = outcomeOf(session_, std::move(output), differs || options_.check);
+    outcome.summary = std::move(summary_);
+    if (outcome.status > 1) outcome.output.clear(); // the command line is wrong
     outcome.maps = std::move(maps_);
     if (outcome.status == 0 && failed_) outcome.status = 1;
     return outcome;
@@ -134,6 +137,11 @@ private:
     runner.report(result);
     if (result.fault) return std::nullopt;
     if (main && options_.map) takeMap(runner, result);
+    if (main && options_.check) {
+      CheckedPost checked = checkPosted(options_, result, runner, session_);
+      failed_ = failed_ || checked.fails;
+      summary_ = std::move(checked.summary);
+    }
     std::string out = result.nc;
     for (const auto& [name, text] : result.files)
       if (options_.diff) out += "(redirected to " + name + ")\n" + text;
@@ -209,6 +217,7 @@ private:
   Session& session_;
   posts::JobOptions job_;
   std::vector<MappedResult> maps_;
+  std::string summary_; // of --check
   bool differs_ = false, failed_ = false;
 };
 

@@ -17,11 +17,15 @@ struct RunPostOptions {
   std::optional<bool> inch;                // nothing: as the job says
   NamedTexts properties;
   bool map = false;
+  // --check: the program is linted for `control`, and with a part or a machine it runs. `name`: of its file.
+  bool check = false;
+  std::string control, name;
+  std::optional<std::string> part, machine;
   CommonOptions common;
 };
 
 // The program that a post writes. With --diff or --expect the status is 1 where it differs, and the output
-// shows how.
+// shows how; with `check` where that finds something: the output is the program all the same.
 Outcome runPost(const RunPostOptions& options);
 // The beginning of a job for a post.
 Outcome newJob(const RunPostOptions& options);
