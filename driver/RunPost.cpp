@@ -167,17 +167,17 @@ private:
     if (jobs.empty()) {
       std::string kinds;
       for (const std::string& kind : posts::matrixKinds(session_))
-        kinds += (kinds.empty() ? "`" : " and `") + kind + "`";
+        kinds += (kinds.empty() ? "`" : ", `") + kind + "`";
       session_.diagnostics().report<diag::PostMatrixKind>({}, options_.matrix, kinds);
       return std::nullopt;
     }
     std::size_t width = 0, printed = 0, empty = 0, refused = 0, failed = 0;
     for (const posts::MatrixJob& job : jobs)
-      width = std::max(width, job.cycle.size());
+      width = std::max(width, job.name.size());
     std::string out;
     for (const posts::MatrixJob& job : jobs) {
       const posts::PostResult result = runner.run(job.json);
-      out += fmt::format("{:<{}}  ", job.cycle, width);
+      out += fmt::format("{:<{}}  ", job.name, width);
       if (result.fault) {
         const posts::PostFault& fault = *result.fault;
         const bool refusal =
@@ -187,28 +187,32 @@ private:
                            fault.stack.empty() ? "" : fmt::format(" (line {})", fault.stack.front().line));
         continue;
       }
-      const std::vector<std::string> blocks = blocksOf(result);
+      const std::vector<std::string> blocks = blocksOf(result, job.isCycle);
       ++(blocks.empty() ? empty : printed);
       out += fmt::format("{} block{}\n", blocks.size(), blocks.size() == 1 ? "" : "s");
       for (const std::string& block : blocks)
         out += "    " + printable(block) + "\n";
     }
-    out += fmt::format("{} of {} cycles are printed, {} refused, {} fail", printed, jobs.size(), refused,
-                       failed);
+    const bool cycles = std::all_of(jobs.begin(), jobs.end(), [](const auto& job) { return job.isCycle; });
+    out += fmt::format("{} of {} {} are printed, {} refused, {} fail", printed, jobs.size(),
+                       cycles ? "cycles" : "operations", refused, failed);
     out += empty == 0 ? "\n" : fmt::format(", {} print nothing\n", empty);
     failed_ = failed_ || failed > 0 || empty > 0;
     return out;
   }
 
-  // What onCyclePoint wrote, directly or by others.
-  static std::vector<std::string> blocksOf(const posts::PostResult& result) {
+  // What onCyclePoint wrote, directly or by others; of moves what the operation wrote from onSection on.
+  static std::vector<std::string> blocksOf(const posts::PostResult& result, bool isCycle) {
+    const auto counts = [&](const posts::PostPlace& place) {
+      if (isCycle) return place.function == "onCyclePoint";
+      return place.function.starts_with("on") && place.function != "onOpen" && place.function != "onClose" &&
+             place.function != "onMachine" && place.function != "onTerminate";
+    };
     std::vector<std::string> out;
     const std::vector<std::string> lines = linesOf(result.nc);
     for (std::size_t i = 0; i < lines.size() && i < result.lines.size(); ++i) {
       const auto& stack = result.lines[i];
-      if (std::any_of(stack.begin(), stack.end(),
-                      [](const posts::PostPlace& place) { return place.function == "onCyclePoint"; }))
-        out.push_back(lines[i]);
+      if (std::any_of(stack.begin(), stack.end(), counts)) out.push_back(lines[i]);
     }
     return out;
   }

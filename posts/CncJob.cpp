@@ -405,12 +405,19 @@ private:
     out.add("quality", std::to_string(in.quality));
     out.add("jetMode", std::to_string(in.jetMode));
     if (fiveAxes_) out.add("multiAxis", "true");
+    if (isOne("operation:tool_isTurning") && isOne("operation:tool_useFeedPerRevolution"))
+      fail("an operation with feed per revolution: whether its moves hold it is not known to Dotek");
     out.add("workPlane", planeOf(in));
     out.add("tool", tool());
     out.add("parameters", objectOf(pending_));
     out.add("before", jsonList(before_));
     out.add("records", jsonList(records_));
     return out.text();
+  }
+
+  bool isOne(std::string_view name) const {
+    const std::string* const json = pending_.find(name);
+    return json != nullptr && *json == "1";
   }
 
   // The work plane as the setup's coordinates have it.
@@ -442,6 +449,8 @@ private:
     for (const auto& [name, member] : kToolFlags)
       if (const std::string* const flag = pending_.find(name))
         out.members.emplace_back(member, *flag == "1" ? "true" : "false");
+    if (isOne("operation:tool_isTurning") && isOne("operation:tool_useConstantSurfaceSpeed"))
+      out.members.emplace_back("spindleMode", jsonText("SPINDLE_CONSTANT_SURFACE_SPEED"));
     std::string fault;
     std::string json = out.json(fault);
     if (!fault.empty()) fail(fault);

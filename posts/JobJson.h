@@ -3,6 +3,7 @@
 
 #include "posts/Json.h"
 #include "posts/PostJob.h"
+#include "stdlib/Toml.h"
 
 #include <string>
 
@@ -11,5 +12,7 @@ namespace dotek::posts {
 // A number, true, false, or a text.
 std::string jsonOfArgument(const std::string& text);
 void addCommon(const JobOptions& options, JsonObject& job);
+// An operation of a job in TOML.
+std::string sectionOf(const stdlib::TomlDocument& document, const stdlib::TomlTable& table);
 
 } // namespace dotek::posts

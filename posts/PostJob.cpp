@@ -21,6 +21,9 @@ using stdlib::TomlValue;
 
 namespace {
 
+using Values = std::vector<std::pair<std::string, std::string>>; // JSON by name
+
+constexpr std::string_view kPerRevolution = "per-revolution";
 constexpr std::size_t kCncHead = 256; // tells a `.cnc` file
 
 std::string jsonOf(const TomlValue& value) {
@@ -119,9 +122,27 @@ std::string stepsOf(const TomlDocument& document, const TomlValue& value) {
   return jsonList(out);
 }
 
+// What the CAM says of the tool of every turning operation, beside the tool itself.
+void addTurning(const TomlTable& section, const TomlTable& tool, Values& parameters) {
+  const auto flag = [](bool on) { return std::string(on ? "1" : "0"); };
+  parameters.emplace_back("operation:tool_isTurning", "1");
+  parameters.emplace_back("operation:tool_useConstantSurfaceSpeed",
+                          flag(tool.value("spindleMode").text() == "SPINDLE_CONSTANT_SURFACE_SPEED"));
+  parameters.emplace_back("operation:tool_useFeedPerRevolution",
+                          flag(section.value("feed_mode").text() == kPerRevolution));
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kSpeeds = {
+      {{"operation:tool_spindleSpeed", "spindleRPM"},
+       {"operation:tool_surfaceSpeed", "surfaceSpeed"},
+       {"operation:tool_maximumSpindleSpeed", "maximumSpindleSpeed"}}};
+  for (const auto& [name, member] : kSpeeds)
+    if (tool.has(member)) parameters.emplace_back(name, jsonOf(tool.value(member)));
+}
+
+} // namespace
+
 std::string sectionOf(const TomlDocument& document, const TomlTable& table) {
   JsonObject out;
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kMembers = {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 10> kMembers = {
       {{"strategy", "strategy"},
        {"work_offset", "workOffset"},
        {"probe_work_offset", "probeWorkOffset"},
@@ -129,13 +150,25 @@ std::string sectionOf(const TomlDocument& document, const TomlTable& table) {
        {"type", "type"},
        {"optional", "optional"},
        {"force_tool_change", "forceToolChange"},
-       {"multi_axis", "multiAxis"}}};
+       {"multi_axis", "multiAxis"},
+       {"tailstock", "tailstock"},
+       {"part_catcher", "partCatcher"}}};
   for (const auto& [key, member] : kMembers)
     if (table.has(key)) out.add(member, jsonOf(table.value(key)));
   if (table.has("initial")) out.add("initial", point(document, table.value("initial")));
   if (table.has("work_origin")) out.add("workOrigin", point(document, table.value("work_origin")));
   if (table.has("work_plane")) out.add("workPlane", jsonOf(table.value("work_plane")));
-  out.add("tool", jsonOf(table.value("tool").table()));
+  if (table.has("feed_mode"))
+    out.add("feedMode",
+            jsonText(table.value("feed_mode").choice({"per-minute", kPerRevolution}, "") == kPerRevolution
+                         ? "FEED_PER_REVOLUTION"
+                         : "FEED_PER_MINUTE"));
+  if (table.has("spindle"))
+    out.add("spindle", jsonText(table.value("spindle").choice({"primary", "secondary"}, "") == "primary"
+                                    ? "SPINDLE_PRIMARY"
+                                    : "SPINDLE_SECONDARY"));
+  const TomlTable tool = table.value("tool").table();
+  out.add("tool", jsonOf(tool));
   out.add("properties", jsonOf(table.value("properties").table()));
   JsonObject parameters;
   const auto own = table.value("parameters").table().entries();
@@ -145,6 +178,10 @@ std::string sectionOf(const TomlDocument& document, const TomlTable& table) {
   // What every operation has.
   if (table.has("strategy") && !given("operation-strategy"))
     parameters.add("operation-strategy", jsonText(table.value("strategy").text()));
+  Values more;
+  if (table.value("type").text() == "TYPE_TURNING") addTurning(table, tool, more);
+  for (const auto& [name, json] : more)
+    if (!given(name)) parameters.add(name, json);
   for (const TomlEntry& entry : own)
     parameters.add(entry.key, jsonOf(entry.value));
   out.add("parameters", parameters.text());
@@ -152,8 +189,6 @@ std::string sectionOf(const TomlDocument& document, const TomlTable& table) {
   out.add("records", stepsOf(document, table.value("step")));
   return out.text();
 }
-
-} // namespace
 
 std::string jsonOfArgument(const std::string& text) {
   double number = 0;

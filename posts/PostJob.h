@@ -25,12 +25,13 @@ struct PostJob {
 // Of a file. nullopt: reported.
 std::optional<PostJob> readPostJob(const std::string& path, const JobOptions& options,
                                    project::Session& session);
-// One operation with one cycle of `--matrix`.
+// One operation of `--matrix`.
 struct MatrixJob {
-  std::string cycle;
+  std::string name; // of its cycle, or of what its moves do
   std::string json;
+  bool isCycle = true;
 };
-// All of a kind, "probing" or "drilling"; empty: there is no such kind.
+// All of a kind, "probing", "drilling" or "turning"; empty: there is no such kind.
 std::vector<MatrixJob> matrixJobs(const std::string& kind, const JobOptions& options,
                                   const project::Session& session);
 std::vector<std::string> matrixKinds(const project::Session& session);

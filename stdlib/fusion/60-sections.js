@@ -82,10 +82,10 @@ function Section(given, id) {
   this.channel = 0;
   this.quality = given.quality || 0;
   this.jetMode = given.jetMode || values.JET_MODE_THROUGH;
-  this.feedMode = values.FEED_PER_MINUTE;
-  this.spindle = values.SPINDLE_PRIMARY;
-  this.tailstock = false;
-  this.partCatcher = false;
+  this.feedMode = values[given.feedMode || "FEED_PER_MINUTE"];
+  this.spindle = values[given.spindle || "SPINDLE_PRIMARY"];
+  this.tailstock = given.tailstock === true;
+  this.partCatcher = given.partCatcher === true;
   this.dynamicWorkOffset = 0;
   this.polarMode = values.POLAR_MODE_OFF;
   this.dotekParameters = given.parameters || {};

@@ -158,7 +158,7 @@ function expandCyclePoint(x, y, z) {
   }
   var clearance = numberOf(cycle.clearance, "cycle.clearance");
   var retract = numberOf(cycle.retract === undefined ? cycle.clearance : cycle.retract, "cycle.retract");
-  var bottom = cycle.bottom !== undefined ? cycle.bottom : z - (cycle.depth || 0);
+  var bottom = cycle.bottom !== undefined ? cycle.bottom : z;
   var feed = cycle.feedrate;
   function rapid(height) {
     callEntry("onRapid", [x, y, height]);

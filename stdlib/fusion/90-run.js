@@ -3,7 +3,7 @@
 var CYCLE_LENGTHS = ["clearance", "retract", "stock", "depth", "bottom", "probeClearance", "probeOvertravel", "width1",
   "width2", "probeSpacing", "widthPCD", "widthFeature", "incrementalDepth", "minimumIncrementalDepth",
   "incrementalDepthReduction", "accumulatedDepth", "chipBreakDistance", "diameter", "pitch", "shift", "plungeDistance",
-  "backBoreDistance"];
+  "backBoreDistance", "incrementalX", "incrementalZ"];
 
 function parameter(name, value) {
   state.parameters[name] = value;
@@ -24,6 +24,16 @@ function commandOf(name) {
     throw sourceError("`" + name + "` is no command of the kernel");
   }
   return value;
+}
+
+// Between these two the feed follows the spindle: passes of a thread.
+function command(which) {
+  if (which === values.COMMAND_ACTIVATE_SPEED_FEED_SYNCHRONIZATION) {
+    state.synchronized = true;
+  } else if (which === values.COMMAND_DEACTIVATE_SPEED_FEED_SYNCHRONIZATION) {
+    state.synchronized = false;
+  }
+  callEntry("onCommand", [which]);
 }
 
 // What stands between operations or in them by hand.
@@ -114,7 +124,7 @@ function carryOut(record) {
     global.spindleSpeed = record.rpm;
     callEntry("onSpindleSpeed", [record.rpm]);
     break;
-  case "command": callEntry("onCommand", [commandOf(record.command)]); break;
+  case "command": command(commandOf(record.command)); break;
   case "manual": manual(record); break;
   case "comment": callEntry("onComment", [record.text]); break;
   case "passthrough": callEntry("onPassThrough", [record.text]); break;
@@ -139,6 +149,7 @@ function runSection(section) {
   (section.dotek.before || []).forEach(carryOut);
   state.parameters = {};
   state.skip = false;
+  state.synchronized = false;
   state.section = section;
   state.record = -1;
   global.currentSection = section;

@@ -195,6 +195,34 @@ TEST_CASE("cnc: a work plane is a matrix in the coordinates of its setup") {
   CHECK(holds(run(file.bytes()).out, "forward (0, -0.6000000238418579, 0.800000011920929)"));
 }
 
+TEST_CASE("cnc: turning says its spindle mode, and when the feed follows the spindle") {
+  const auto turned = [](int surface, int perRevolution) {
+    CncWriter file;
+    file.mark().integer("operation:tool_isTurning", 1);
+    file.integer("operation:tool_useConstantSurfaceSpeed", surface);
+    file.integer("operation:tool_useFeedPerRevolution", perRevolution);
+    file.context({1, 1, 1}).tool({23, 3, 1, 1, 0, 0, 500, 1.5}).begin();
+    file.linear(10, 0, 5, 750, 2)
+        .command(12)
+        .linear(10, 0, -20, 750, 2)
+        .command(13)
+        .linear(12, 0, -20, 750, 2);
+    file.end();
+    const TestFolder folder("dotek-cnc");
+    folder.write("lathe.cps", "capabilities = CAPABILITY_TURNING;\n"
+                              "function onSection() { writeln(tool.getSpindleMode() == "
+                              "SPINDLE_CONSTANT_SURFACE_SPEED ? \"G96\" : \"G97\"); }\n"
+                              "function onLinear(x, y, z) { writeln((isSpeedFeedSynchronizationActive() ? "
+                              "\"G32\" : \"G1\") + \" Z\" + z); }\n");
+    folder.write("job.cnc", file.bytes());
+    return runDotek({"run-post", "lathe.cps", "job.cnc"}, folder.path());
+  };
+  CHECK(turned(0, 0).out == "G97\nG1 Z5\nG32 Z-20\nG1 Z-20\n");
+  CHECK(turned(1, 0).out == "G96\nG1 Z5\nG32 Z-20\nG1 Z-20\n");
+  CHECK(holds(turned(0, 1).err,
+              "an operation with feed per revolution: whether its moves hold it is not known"));
+}
+
 TEST_CASE("cnc: heights with a place are those of the first point") {
   CncWriter file({2, 4, 0});
   file.operation("drill", {}, {1, 3, 1, 1, 4.2, 118, 5000, 0});
