@@ -328,6 +328,8 @@ std::optional<int> parseArguments(const std::vector<std::string>& arguments, Arg
       parsed.command = Command::NewMacros;
     if (parsed.command == Command::New && app.get_subcommands().front()->got_subcommand("job"))
       parsed.command = Command::NewJob;
+    if (parsed.command == Command::New && app.get_subcommands().front()->got_subcommand("post"))
+      parsed.command = Command::NewPost;
     fill(raw, parsed);
     return std::nullopt;
   } catch (const CLI::Success& success) {

@@ -26,6 +26,7 @@ enum class Command : unsigned char {
   NewCycle,
   NewMacros,
   NewJob,
+  NewPost,
   Init,
   Check,
   Fmt,

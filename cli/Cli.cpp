@@ -391,6 +391,8 @@ int runCommand(Arguments& arguments, std::ostream& out, std::ostream& err) {
   case Command::NewJob:
     arguments.runPost.common = arguments.common;
     return printer.result(driver::newJob(arguments.runPost), arguments);
+  case Command::NewPost:
+    return printer.result(driver::newPost(arguments.inputs.back(), arguments.common), arguments);
   case Command::Convert: {
     driver::ConvertOptions& options = arguments.convert;
     options.inputs = arguments.inputs;

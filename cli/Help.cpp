@@ -24,7 +24,9 @@ constexpr CommandHelp kCommands[] = {
      "post"},
     {"run-post",
      "dotek convert examples/surface-x --prog examples/post.txt --to fusion --whole-post -o shop.cps\n"
-     "dotek run-post shop.cps --matrix drilling",
+     "dotek run-post shop.cps --matrix drilling\n"
+     "dotek new post --from examples/s280-post.toml -o s280.cps\n"
+     "dotek run-post s280.cps examples/s280-job.toml --check --control mikroprog-s280 --property stopCondition=O20",
      "run-post"},
     {"convert",
      "dotek convert examples/surface-x --prog examples/post.txt --to fanuc --verify -o O8000.nc\n"
@@ -45,6 +47,7 @@ constexpr CommandHelp kCommands[] = {
      "dotek convert examples/surface-x --prog examples/post.txt --to fusion --whole-post -o shop.cps\n"
      "dotek new job --from shop.cps -o job.toml",
      "run-post"},
+    {"new post", "dotek new post --from examples/s280-post.toml -o s280.cps", "fusion-lathe"},
     {"new cycle", "dotek new cycle edge -o edge.cycle", "tutorials/my-first-cycle"},
     {"new macros", "dotek new macros dotek -o macros.nc", "convert"},
     {"init", "dotek init --control fanuc-31i-b", "init"},

@@ -31,6 +31,15 @@ void addNew(CLI::App& app, Raw& raw) {
   addForce(*job, raw);
   addIncludes(*job, raw);
   addFolders(*job, "--data", raw.data, "folder whose data files are added or replace built-in ones");
+  CLI::App* post = command->add_subcommand(
+      "post", "a post of Fusion for a lathe with Mikroprog, from a description of the machine");
+  post->add_option("--from", raw.inputs, "the description, as examples/s280-post.toml")
+      ->type_name("DESCRIPTION.toml")
+      ->required()
+      ->expected(1);
+  post->add_option("-o", raw.output, "write the post to a file")->type_name("POST.cps");
+  addForce(*post, raw);
+  addFolders(*post, "--data", raw.data, "folder whose data files are added or replace built-in ones");
   CLI::App* cycle = command->add_subcommand("cycle", "a cycle of your own, with a comment to each part");
   cycle->add_option("NAME", raw.inputs, "name of the cycle: small letters, digits and `_`")
       ->required()

@@ -11,7 +11,8 @@ void addRunPost(CLI::App& app, Raw& raw) {
          "the post (.cps), then the job (.toml, or .cnc of Autodesk); `dotek new job --from POST` begins one")
       ->expected(1, 2);
   CLI::Option* matrix =
-      run->add_option("--matrix", raw.matrix, "instead of a job: each operation of a kind, probing, drilling or turning")
+      run->add_option("--matrix", raw.matrix,
+                      "instead of a job: each operation of a kind, probing, drilling or turning")
           ->type_name("KIND");
   addSeveral(*run, "--property", raw.properties, "a property of the post", "NAME=VALUE");
   run->add_option("--unit", raw.unit, "unit of the output where no job says it (mm)")

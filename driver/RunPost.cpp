@@ -1,6 +1,7 @@
 #include "driver/RunPost.h"
 #include "driver/Command.h"
 #include "driver/PostCheck.h"
+#include "posts/LathePost.h"
 #include "posts/PostJob.h"
 #include "posts/PostRun.h"
 #include "support/Files.h"
@@ -238,6 +239,12 @@ Outcome newJob(const RunPostOptions& options) {
     return outcomeOf(session,
                      posts::newPostJob(options.post, runner.properties(), runner.capabilities(),
                                        posts::namesProbing(session.sources().file(runner.file()).bytes())));
+  });
+}
+
+Outcome newPost(const std::string& description, const CommonOptions& common) {
+  return guarded(common, [&](Session& session) {
+    return outcomeOf(session, posts::newLathePost(description, session).value_or(""));
   });
 }
 

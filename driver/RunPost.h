@@ -29,5 +29,7 @@ struct RunPostOptions {
 Outcome runPost(const RunPostOptions& options);
 // The beginning of a job for a post.
 Outcome newJob(const RunPostOptions& options);
+// A post for a lathe from a description (docs/fusion-lathe.md).
+Outcome newPost(const std::string& description, const CommonOptions& common);
 
 } // namespace dotek::driver
