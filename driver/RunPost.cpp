@@ -129,6 +129,11 @@ private:
     if (options_.matrix.empty()) {
       job = posts::readPostJob(*options_.job, job_, session_);
       if (!job) return std::nullopt;
+      if (options_.inch && *options_.inch != job->inch) {
+        session_.diagnostics().report<diag::PostUnitOther>(
+            {}, *options_.job, job->inch ? "inches" : "millimetres", *options_.inch ? "in" : "mm");
+        return std::nullopt;
+      }
     }
     script::Options script(session_.options().scriptProgram, session_.limits());
     posts::PostRunner runner(session_, script);

@@ -1,6 +1,6 @@
 #include "posts/CncJob.h"
 
-#include "posts/Cnc.h"
+#include "posts/CncCycle.h"
 #include "posts/CncNames.h"
 #include "posts/CncTool.h"
 #include "posts/JobJson.h"
@@ -8,11 +8,8 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <fmt/format.h>
-#include <map>
-#include <numbers>
 #include <optional>
 
 namespace dotek::posts {
@@ -20,95 +17,6 @@ namespace dotek::posts {
 using namespace cnc;
 
 namespace {
-
-template <std::size_t N, class T> std::string numbers(const std::array<T, N>& values) {
-  std::vector<std::string> items;
-  for (const T one : values)
-    items.push_back(jsonNumber(static_cast<double>(one)));
-  return jsonList(items);
-}
-
-std::string jsonOf(const Named& named) {
-  if (const auto* text = std::get_if<std::string>(&named.value)) return jsonText(*text);
-  if (const auto* whole = std::get_if<std::int32_t>(&named.value)) return std::to_string(*whole);
-  if (const auto* real = std::get_if<double>(&named.value)) return jsonNumber(*real);
-  return numbers(std::get<Double3>(named.value));
-}
-
-std::string step(std::string_view record, std::string_view member = {}, const std::string& json = {}) {
-  JsonObject out;
-  out.add("record", jsonText(record));
-  if (!member.empty()) out.add(member, json);
-  return out.text();
-}
-
-std::string parameterStep(const std::string& name, const std::string& json) {
-  JsonObject out;
-  out.add("record", jsonText("parameter"));
-  out.add("name", jsonText(name));
-  out.add("value", json);
-  return out.text();
-}
-
-std::optional<double> numberOf(const std::string* json) {
-  double out = 0;
-  if (json == nullptr) return std::nullopt;
-  const auto read = std::from_chars(json->data(), json->data() + json->size(), out);
-  return read.ec == std::errc() && read.ptr == json->data() + json->size() ? std::optional(out)
-                                                                           : std::nullopt;
-}
-
-// Cycles of holes, to which the engine adds what the job leaves out (docs/fusion-kernel.md).
-bool isHoleCycle(std::string_view type) {
-  constexpr std::array<std::string_view, 15> kTypes = {"drilling",
-                                                       "counter-boring",
-                                                       "chip-breaking",
-                                                       "partial-drilling",
-                                                       "deep-drilling",
-                                                       "break-through-drilling",
-                                                       "gun-drilling",
-                                                       "tapping",
-                                                       "left-tapping",
-                                                       "right-tapping",
-                                                       "tapping-with-chip-breaking",
-                                                       "reaming",
-                                                       "boring",
-                                                       "stop-boring",
-                                                       "fine-boring"};
-  return type == "back-boring" || std::find(kTypes.begin(), kTypes.end(), type) != kTypes.end();
-}
-
-// A list of values by name; a later one replaces an earlier.
-class Values {
-public:
-  void set(const std::string& name, std::string json) {
-    const auto [known, added] = at_.emplace(name, all_.size());
-    if (added)
-      all_.emplace_back(name, std::move(json));
-    else
-      all_[known->second].second = std::move(json);
-  }
-  const std::string* find(std::string_view name) const {
-    const auto known = at_.find(name);
-    return known == at_.end() ? nullptr : &all_[known->second].second;
-  }
-  const std::vector<std::pair<std::string, std::string>>& all() const { return all_; }
-  void clear() {
-    all_.clear();
-    at_.clear();
-  }
-
-private:
-  std::vector<std::pair<std::string, std::string>> all_; // in their order
-  std::map<std::string, std::size_t, std::less<>> at_;
-};
-
-std::string objectOf(const Values& values) {
-  JsonObject out;
-  for (const auto& [name, json] : values.all())
-    out.add(name, json);
-  return out.text();
-}
 
 // Records that follow a tool by name, and parameters before it.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kToolTexts = {
@@ -126,7 +34,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 2> kToolFlag
 
 class Builder {
 public:
-  explicit Builder(const File& file) : file_(file) {}
+  Builder(const File& file, const HoleCycles& holes) : file_(file), holes_(holes) {}
 
   // Throws Fault.
   void build(JsonObject& job) {
@@ -171,7 +79,7 @@ private:
     case Code::SectionEnd: end(); break;
     case Code::Linear:
       if (cycle_) {
-        points_.push_back(std::get<Move>(record.value));
+        cycle_->add(std::get<Move>(record.value));
         break;
       }
       [[fallthrough]];
@@ -182,9 +90,7 @@ private:
     case Code::Linear5: move(record.code, std::get<Move>(record.value)); break;
     case Code::Cycle:
       if (!inSection_) fail("a cycle lies outside of the operations");
-      cycle_ = std::get<std::string>(record.value);
-      cycleValues_.clear();
-      points_.clear();
+      cycle_.emplace(std::get<std::string>(record.value), holes_);
       break;
     case Code::CycleEnd: endCycle(); break;
     case Code::Command: command(std::get<std::uint32_t>(record.value)); break;
@@ -208,8 +114,8 @@ private:
       return;
     }
     if (cycle_) {
-      if (!points_.empty()) fail("a cycle has a value after its first point");
-      cycleParameters_.push_back(named);
+      if (cycle_->hasPoints()) fail("a cycle has a value after its first point");
+      cycle_->add(named);
       return;
     }
     if (std::holds_alternative<Double3>(named.value)) fail("a value with a place lies outside of a cycle");
@@ -308,65 +214,19 @@ private:
 
   void endCycle() {
     if (!cycle_) fail("a cycle ends that did not begin");
-    if (points_.empty()) fail("a cycle has no points");
-    const std::string type = *cycle_;
+    CycleOfJob cycle = std::move(*cycle_);
     cycle_.reset();
-    for (const Named& one : cycleParameters_)
-      if (one.name != "kind") cycleValue(one);
-    cycleParameters_.clear();
-    std::vector<std::string> points;
-    for (const Move& point : points_) {
-      if ((point.flags & (kCompensationLeft | kCompensationRight)) != 0)
-        fail("a cycle with radius compensation");
-      points.push_back(numbers(point.to));
+    if (!cycle.hasPoints()) fail("a cycle has no points");
+    try {
+      for (std::string& one : cycle.parameters())
+        add(std::move(one));
+    } catch (const std::string& unknown) {
+      fail(unknown);
     }
-    before(points_.front());
-    movement_ = points_.back().movement;
-    complete(type);
-    JsonObject out;
-    out.add("record", jsonText("cycle"));
-    out.add("type", jsonText(type));
-    out.add("cycle", objectOf(cycleValues_));
-    out.add("points", jsonList(points));
+    before(cycle.points().front());
+    movement_ = cycle.points().back().movement;
     at_.reset();
-    add(out.text());
-  }
-
-  void cycleValue(const Named& named) {
-    std::string json = jsonOf(named);
-    if (const auto* placed = std::get_if<Double3>(&named.value)) {
-      const Single3& first = points_.front().to;
-      for (std::size_t i = 0; i < 2; ++i)
-        if (std::abs((*placed)[i] - static_cast<double>(first[i])) > 1e-4)
-          fail(fmt::format("`{}` of a cycle lies elsewhere than its first point", named.name));
-      json = jsonNumber((*placed)[2]);
-    }
-    cycleValues_.set(named.name, json);
-    add(parameterStep(named.name, json));
-  }
-
-  // What the trace of an engine shows in a cycle beyond the values of its job.
-  void complete(const std::string& type) {
-    const auto value = [&](const char* name) { return cycleValues_.find(name); };
-    const auto stock = numberOf(value("stock")), below = numberOf(value("depth"));
-    if (!isHoleCycle(type) || !stock || !below) return;
-    const std::string depth = *value("depth");
-    const auto fill = [&](const char* name, const std::string& json) {
-      if (value(name) == nullptr) cycleValues_.set(name, json);
-    };
-    fill("bottom", jsonNumber(*stock - *below));
-    if (const std::string* const feed = value("feedrate")) {
-      const std::string same = *feed;
-      fill("retractFeedrate", same);
-      fill("plungeFeedrate", same);
-    }
-    fill("incrementalDepth", depth);
-    fill("plungesPerRetract", "1");
-    fill("shiftDirection", jsonNumber(std::numbers::pi));
-    for (const char* const name :
-         {"dwell", "incrementalDepthReduction", "minimumIncrementalDepth", "shift", "shiftOrientation",
-          "compensatedShiftOrientation", "backBoreDistance", "stopSpindle"})
-      fill(name, "0");
+    add(cycle.record());
   }
 
   void command(std::uint32_t number) {
@@ -458,16 +318,15 @@ private:
   }
 
   const File& file_;
+  const HoleCycles& holes_;
   const Record* record_ = nullptr;
   const Context* context_ = nullptr;
   const Tool* tool_ = nullptr;
   std::optional<Box> stock_;
-  Values globals_, pending_, toolTexts_, cycleValues_;
-  std::vector<Named> cycleParameters_;
+  Values globals_, pending_, toolTexts_;
   std::string toolTypeText_;
   std::vector<std::string> sections_, before_, records_;
-  std::vector<Move> points_;
-  std::optional<std::string> cycle_;
+  std::optional<CycleOfJob> cycle_;
   std::optional<Single3> at_;
   unsigned movement_ = 0, compensation_ = 0;
   bool inSection_ = false, fiveAxes_ = false, marked_ = false;
@@ -481,7 +340,8 @@ bool isKnownVersion(const std::array<std::uint8_t, 3>& version) {
 
 } // namespace
 
-std::variant<std::string, Fault> cncJob(const File& file, const JobOptions& options) {
+std::variant<std::string, Fault> cncJob(const File& file, const JobOptions& options,
+                                        const HoleCycles& holes) {
   JsonObject job;
   addCommon(options, job);
   JsonObject properties;
@@ -489,7 +349,7 @@ std::variant<std::string, Fault> cncJob(const File& file, const JobOptions& opti
     properties.add(name, jsonOfArgument(value));
   job.add("properties", properties.text());
   try {
-    Builder(file).build(job);
+    Builder(file, holes).build(job);
   } catch (const Fault& fault) {
     return fault;
   }
@@ -508,7 +368,7 @@ std::optional<PostJob> readCncJob(const std::string& path, std::string_view byte
   if (!isKnownVersion(file.version))
     diagnostics.report<diag::CncVersion>(
         {}, path, fmt::format("{}.{}.{}", file.version[0], file.version[1], file.version[2]));
-  auto job = cncJob(file, options);
+  auto job = cncJob(file, options, holeCycles(session.data()));
   if (const Fault* const fault = std::get_if<Fault>(&job)) {
     diagnostics.report<diag::CncNotRun>({}, path, fault->offset, fault->text);
     return std::nullopt;

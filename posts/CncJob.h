@@ -1,7 +1,7 @@
 // The job that a `.cnc` file holds.
 #pragma once
 
-#include "posts/Cnc.h"
+#include "posts/CncCycle.h"
 #include "posts/PostJob.h"
 
 #include <string>
@@ -11,7 +11,8 @@
 namespace dotek::posts {
 
 // What the kernel runs, as JSON.
-std::variant<std::string, cnc::Fault> cncJob(const cnc::File& file, const JobOptions& options);
+std::variant<std::string, cnc::Fault> cncJob(const cnc::File& file, const JobOptions& options,
+                                             const cnc::HoleCycles& holes);
 // nullopt: reported.
 std::optional<PostJob> readCncJob(const std::string& path, std::string_view bytes, const JobOptions& options,
                                   project::Session& session);

@@ -31,6 +31,7 @@ struct CycleTable {
     std::string kind, name, section; // JSON
   };
   std::vector<Row> rows; // operations of moves
+  std::vector<std::string> holes;
 };
 
 Values valuesOf(const TomlTable& table) {
@@ -42,14 +43,15 @@ Values valuesOf(const TomlTable& table) {
   return out;
 }
 
-CycleTable tableOf(const project::Session& session) {
+CycleTable tableOf(const stdlib::DataFiles& data) {
   CycleTable out;
-  const stdlib::DataFile* const file = session.data().find("fusion", "cycles");
+  const stdlib::DataFile* const file = data.find("fusion", "cycles");
   if (file == nullptr) throw stdlib::DataError("fusion/cycles.toml is not there");
   const TomlDocument document = TomlDocument::parse(*file);
   const TomlTable root = document.root();
   static_cast<void>(root.value("grade").text());
   static_cast<void>(root.value("source").text());
+  out.holes = root.value("holes").texts();
   for (const TomlTable& table : root.value("kind").tables())
     out.kinds.push_back({table.value("name").text(), table.value("strategy").text(),
                          table.value("type").text(), table.value("at").numbers(),
@@ -84,9 +86,14 @@ std::string jsonOf(const Values& values) {
 
 } // namespace
 
+std::set<std::string, std::less<>> holeCycles(const stdlib::DataFiles& data) {
+  const CycleTable table = tableOf(data);
+  return {table.holes.begin(), table.holes.end()};
+}
+
 std::vector<std::string> matrixKinds(const project::Session& session) {
   std::vector<std::string> out;
-  for (const CycleKind& kind : tableOf(session).kinds)
+  for (const CycleKind& kind : tableOf(session.data()).kinds)
     out.push_back(kind.name);
   return out;
 }
@@ -105,7 +112,7 @@ std::vector<MatrixJob> matrixJobs(const std::string& kind, const JobOptions& opt
     job.add("sections", jsonList({section}));
     out.push_back({name, job.text(), isCycle});
   };
-  const CycleTable table = tableOf(session);
+  const CycleTable table = tableOf(session.data());
   for (const CycleTable::Row& row : table.rows)
     if (row.kind == kind) add(row.name, row.section, false);
   for (const CycleKind& one : table.kinds) {

@@ -4,6 +4,7 @@
 #include "project/Session.h"
 
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -35,6 +36,9 @@ struct MatrixJob {
 std::vector<MatrixJob> matrixJobs(const std::string& kind, const JobOptions& options,
                                   const project::Session& session);
 std::vector<std::string> matrixKinds(const project::Session& session);
+
+// Cycles of holes, to which the engine adds what a job of the CAM leaves out.
+std::set<std::string, std::less<>> holeCycles(const stdlib::DataFiles& data);
 
 struct PostProperty;
 // The beginning of a job file, with the properties of a post. `probes`: it begins with an operation of the

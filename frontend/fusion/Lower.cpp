@@ -95,8 +95,11 @@ void Lowering::checkClosures() {
     const Symbol& symbol = *use.symbol;
     if (!isScope(symbol) || !symbol.scope->inLoop || use.scope->function == symbol.scope->function) continue;
     if (!told.insert(&symbol).second || staysInPass(use)) continue;
-    refuse(*use.name,
-           fmt::format("a function keeps `{}`, which each pass of the loop makes anew", symbol.name));
+    refuse(
+        *use.name,
+        fmt::format("a function keeps `{0}`, which each pass of the loop makes anew (make it in a function "
+                    "that takes `{0}` as its argument, or write the loop as `forEach`)",
+                    symbol.name));
   }
 }
 

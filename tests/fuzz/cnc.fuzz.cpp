@@ -16,7 +16,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (fault->offset > size || fault->text.empty()) std::abort();
     return 0;
   }
-  const auto job = cncJob(std::get<cnc::File>(read), {});
+  const auto job = cncJob(std::get<cnc::File>(read), {}, {"drilling", "tapping"});
   if (const auto* fault = std::get_if<cnc::Fault>(&job))
     if (fault->offset > size || fault->text.empty()) std::abort();
   return 0;

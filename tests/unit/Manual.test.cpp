@@ -128,7 +128,7 @@ TEST_CASE("manual: each part of `dotek new` has its examples, and they run") {
     CHECK_MESSAGE(result.status == 0, part << ": " << result.err);
     ++parts;
   }
-  CHECK(parts == 5);
+  CHECK(parts == 6);
 }
 
 TEST_CASE("manual: a misspelt command, part of a command or flag is answered with the one that is meant") {
