@@ -8,6 +8,7 @@
 #include "project/Lowering.h"
 #include "project/Programs.h"
 #include "project/Settings.h"
+#include "stdlib/MovedSet.h"
 #include "support/Printable.h"
 #include "support/messages/Commands.h"
 #include "support/messages/Output.h"
@@ -188,8 +189,7 @@ Outcome renumber(const RenumberCommandOptions& options) {
 
 Outcome newMacros(const std::string& name, const CommonOptions& common) {
   return guarded(common, {}, [&](Session& session) {
-    const stdlib::DataFile* const text = session.data().find("macrob", name);
-    if (text != nullptr) return outcomeOf(session, std::string(text->text));
+    if (auto text = stdlib::macroText(session.data(), name)) return outcomeOf(session, std::move(*text));
     std::string there;
     for (const stdlib::DataFile* file : session.data().list("macrob"))
       there += (there.empty() ? "`" : ", `") + file->name + "`";

@@ -67,6 +67,13 @@ const std::vector<stdlib::MacroSet>& Session::macroSets(const stdlib::Control* c
 }
 
 const stdlib::MacroSet* Session::macroSet(const std::string& name, const stdlib::Control* control) {
+  if (name.find('@') != std::string::npos) {
+    const auto [at, fresh] =
+        macroSets_.try_emplace("set " + name); // beside the lists, whose keys are packages
+    if (fresh)
+      if (auto set = stdlib::MacroSet::load(data_, name)) at->second.push_back(std::move(*set));
+    return at->second.empty() ? nullptr : &at->second.front();
+  }
   const bool packaged = control != nullptr && control->package && control->package->set == name;
   const std::vector<stdlib::MacroSet>& sets = macroSets(packaged ? control : nullptr);
   const auto found =

@@ -1,5 +1,6 @@
 // Macro sets and controls as stored tables. Every member of a type is named by a structured binding: one that
 // is added to the type and not here breaks the build.
+#include "stdlib/MovedSet.h"
 #include "stdlib/StoredArchive.h"
 #include "stdlib/StoredTables.h"
 
@@ -145,6 +146,15 @@ Control TableStore::restoreControl(std::string_view text) {
 }
 
 std::optional<MacroSet> MacroSet::load(const DataFiles& files, std::string_view name) {
+  const std::optional<MovedName> moved = movedName(name);
+  if (!moved) return std::nullopt;
+  if (moved->first) {
+    // Only a text can be written with other variables.
+    if (files.find("macrob", moved->set) == nullptr) return std::nullopt;
+    std::optional<MacroSet> set = load(files, moved->set);
+    if (!set || !keptVariables(*set)) return std::nullopt;
+    return movedTo(std::move(*set), *moved->first);
+  }
   const DataFile* file = files.find("macros", name);
   if (file == nullptr) return std::nullopt;
   const StoredTable* table = file->builtIn() ? tableOf(embeddedTables().macros, name) : nullptr;

@@ -65,7 +65,10 @@ double firstSystemOf(const verify::DrawField& field) {
   const auto compared = [&](double value) {
     return std::find(field.thresholds.begin(), field.thresholds.end(), value) != field.thresholds.end();
   };
-  return !compared(kCode) && !compared(kCode + kMost - 1) && compared(kMost) ? 1 : kCode;
+  const auto bounded = [&](int first) { // `< first`, `< first + 6` and the like
+    return compared(first) || compared(first - 1) || compared(first + kMost - 1) || compared(first + kMost);
+  };
+  return !bounded(kCode) && (compared(kMost) || compared(kMost + 1)) ? 1 : kCode;
 }
 
 // What the dialog, the first value or the checks show to stand for G54.1 P1 and following.

@@ -1,7 +1,7 @@
 #include "backends/fanuc/Emit.h"
 
+#include "backends/common/MovedMacros.h"
 #include "backends/fanuc/OwnCycles.h"
-
 #include "backends/fanuc/State.h"
 #include "backends/fanuc/Uses.h"
 #include "ir/Flow.h"
@@ -113,7 +113,8 @@ bool fits(const EmitOptions& options, SourceRange range, Diagnostics& diagnostic
 std::optional<std::vector<EmittedLine>> emit(const ir::Cycle& given, const EmitOptions& options,
                                              const SourceMap& sources, Diagnostics& diagnostics,
                                              std::vector<Argument>* assigned, std::uint32_t* alarms) {
-  if (!fits(options, given.range, diagnostics)) return std::nullopt;
+  if (!fits(options, given.range, diagnostics) || !holdsKept(options.macros, options.control, diagnostics))
+    return std::nullopt;
   const ir::Cycle cycle = withTouchCalls(given, options.macros);
   auto arguments = assignLetters(cycle, options, diagnostics);
   if (!arguments) return std::nullopt;

@@ -1,4 +1,5 @@
 // The statements of a list: assignments, jumps, alarms; blocks are left to Blocks.cpp.
+#include "backends/common/MovedMacros.h"
 #include "backends/common/Waits.h"
 #include "backends/fanuc/OwnCycles.h"
 #include "backends/fanuc/State.h"
@@ -233,7 +234,8 @@ private:
     if (const auto& package = state_.control.package;
         package && variable >= package->calibrationFirst && variable <= package->calibrationLast &&
         state_.control.name != state_.options.sourceControl.name) {
-      state_.refuse<diag::StoreCalibration>(origin.range(), variable, package->title);
+      state_.refuse<diag::StoreCalibration>(origin.range(), variable, package->title,
+                                            "store the value elsewhere");
       return std::nullopt;
     }
     for (const auto& [first, last] : state_.macros.scratch) {
@@ -243,7 +245,9 @@ private:
         if (calls())
           state_.diagnostics.report<diag::StoreScratch>(origin.range(), variable, state_.macros.title);
       } else if (measures()) {
-        state_.refuse<diag::StoreCalibration>(origin.range(), variable, state_.macros.title);
+        state_.refuse<diag::StoreCalibration>(
+            origin.range(), variable, state_.macros.title,
+            storeRemedy(state_.macros, state_.control, numbersOf(state_.cycle)));
         return std::nullopt;
       } else {
         state_.diagnostics.report<diag::StoreCalibrationUncalled>(origin.range(), variable,

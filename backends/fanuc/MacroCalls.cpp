@@ -145,7 +145,7 @@ public:
     values.setsSystem = findRule();
     if (measure_.setting)
       guardSystem(state_, measure_.setting->system, origin_,
-                  values.setsSystem ? extendedSystems(state_, signature_) : ExtendedSystems());
+                  extendedSystems(state_, signature_, values.setsSystem));
     keepPositions(state_, origin_);
     ir::Measure sent = measure_;
     if (sent.setting && values.setsSystem)
@@ -331,8 +331,7 @@ void writeCycle(State& state, const ir::CallCycle& given, const ir::Origin& orig
   if (cycle.setting) {
     values.setsSystem = setsByItself(state, cycle, *signature, !tolerances.empty(), origin, expected);
     if (state.failed) return;
-    guardSystem(state, cycle.setting->system, origin,
-                values.setsSystem ? extendedSystems(state, *signature) : ExtendedSystems());
+    guardSystem(state, cycle.setting->system, origin, extendedSystems(state, *signature, values.setsSystem));
   }
   if (cycle.setting && values.setsSystem)
     cycle.setting->system = systemForCall(state, cycle.setting->system, *signature, origin);

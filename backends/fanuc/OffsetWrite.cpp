@@ -24,7 +24,6 @@ constexpr std::string_view kSourceSet = "take the macro set of the source";
 
 constexpr double kFirstSystem = 54, kLastSystem = 59;
 constexpr std::uint32_t kMaxSteps = 10000;
-constexpr int kMostTried = 400; // numbers of an argument
 
 ir::ExpressionPtr plus(const ir::ExpressionPtr& a, const ir::ExpressionPtr& b) {
   return ir::binary(ir::BinaryOp::Add, a, b);
@@ -73,23 +72,9 @@ bool checksConfine(const State& state, ir::VariableId id) {
 } // namespace
 
 bool confinedTo(const State& state, const ir::ExpressionPtr& value, double least, double most) {
-  const std::set<ir::VariableId> given = givenFor(state.cycle, value);
-  if (given.size() != 1) return false;
-  std::vector<double> tried = {-99999, 0.5, least + 0.5, 99999};
-  for (int one = -1; one <= kMostTried; ++one)
-    tried.push_back(one);
-  bool passes = false;
-  for (ir::Environment& environment : environmentsOf(state.cycle))
-    for (const double one : tried) {
-      environment[*given.begin()] = ir::Scalar::of(one);
-      if (ir::runChecks(state.cycle, environment, kMaxSteps).end == ir::CheckRun::End::Alarm) continue;
-      const ir::Scalar there = ir::evaluate(*value, withLocals(state.cycle, environment));
-      if (!there.known() || there.value < least || there.value > most ||
-          there.value != std::trunc(there.value))
-        return false;
-      passes = true;
-    }
-  return passes;
+  return passOnly(state.cycle, value, {}, [&](double there) {
+    return there >= least && there <= most && there == std::trunc(there);
+  });
 }
 
 ir::ExpressionPtr offsetNumber(const stdlib::Control& control, const ir::ExpressionPtr& system,
@@ -133,8 +118,7 @@ void writeOffset(State& state, const ir::OffsetSetting& setting, ir::Axis axis,
   const ir::ExpressionPtr value =
       minus(plus(ir::machineVariable(offsetNumber(state.control, active, axis)), measured),
             setting.nominal[ir::indexOf(axis)]);
-  const std::string left = machineText(state, offsetNumber(state.control, setting.system, axis), origin);
-  assign(state, left, value, origin);
+  assign(state, offsetText(state, setting, axis, signature, origin), value, origin);
 }
 
 void writeSetOffset(State& state, const ir::CallCycle& set, const ir::Origin& given) {
@@ -208,82 +192,14 @@ bool knownAtEntry(const State& state, const ir::ExpressionPtr& value) {
   });
 }
 
-namespace {
-
-const stdlib::MacroArgument* systemArgument(const stdlib::MacroSignature& signature) {
-  for (const stdlib::MacroArgument& argument : signature.arguments)
-    if (argument.role == stdlib::ArgumentRole::System && argument.extendedFirst != 0) return &argument;
-  return nullptr;
-}
-
-// How the macros of the source name systems beyond G59; nullptr: as those of the target, or not at all.
-const stdlib::MacroArgument* sourceSystems(const State& state, const stdlib::MacroArgument& target) {
-  if (state.options.source == nullptr) return nullptr;
-  for (const stdlib::MacroSignature& signature : state.options.source->signatures)
-    if (const stdlib::MacroArgument* source = systemArgument(signature))
-      return source->extendedFirst == target.extendedFirst && source->extendedStep == target.extendedStep
-                 ? nullptr
-                 : source;
-  return nullptr;
-}
-
-} // namespace
-
-ExtendedSystems extendedSystems(const State& state, const stdlib::MacroSignature& signature) {
-  const stdlib::SystemVariables& v = state.control.variables;
-  const stdlib::MacroArgument* const target = systemArgument(signature);
-  if (state.options.foreignMacros || !v.extendedX || target == nullptr) return {};
-  // As the source counts them.
-  const stdlib::MacroArgument* const source = sourceSystems(state, *target);
-  const stdlib::MacroArgument& counted = source != nullptr ? *source : *target;
-  const auto most = [](const stdlib::MacroArgument& one) {
-    return stdlib::extendedSystem(one, one.extendedLast);
-  };
-  const std::uint32_t count =
-      std::min({most(*target), most(counted), static_cast<std::uint32_t>(v.extendedCount)});
-  if (count == 0) return {};
-  return {counted.extendedFirst + kFirstSystem - 1, stdlib::extendedNumber(counted, count) + kFirstSystem - 1,
-          counted.extendedStep};
-}
-
-ir::ExpressionPtr systemForCall(State& state, const ir::ExpressionPtr& system,
-                                const stdlib::MacroSignature& signature, const ir::Origin& origin) {
-  const stdlib::MacroArgument* const target = systemArgument(signature);
-  const stdlib::MacroArgument* const source = target == nullptr ? nullptr : sourceSystems(state, *target);
-  if (source == nullptr || state.options.foreignMacros || !state.control.variables.extendedX) return system;
-  const ir::ExpressionPtr given = tidy(minus(system, ir::constant(kFirstSystem - 1)));
-  if (const double* value = ir::constantValue(given)) {
-    const std::uint32_t n = stdlib::extendedSystem(*source, *value);
-    return n == 0 ? system
-                  : ir::constant(stdlib::extendedNumber(*target, n) + kFirstSystem - 1, system->range);
-  }
-  if (confinedTo(state, system, kFirstSystem, kLastSystem)) return system;
-  const std::uint32_t helper = state.helper();
-  if (helper == 0) {
-    state.refuse<diag::TooManyLocals>(state.cycle.range, "the work system", state.control.locals);
-    return system;
-  }
-  const std::string left = "#" + std::to_string(helper);
-  const ir::ExpressionPtr named = systemVariable(static_cast<int>(helper));
-  state.sheet.add(left + "=" + valueText(state, given, origin), origin);
-  const ir::ExpressionPtr there = plus(
-      ir::constant(target->extendedFirst),
-      ir::binary(target->extendedStep < source->extendedStep ? ir::BinaryOp::Divide : ir::BinaryOp::Multiply,
-                 minus(named, ir::constant(source->extendedFirst)),
-                 ir::constant(target->extendedStep < source->extendedStep
-                                  ? source->extendedStep / target->extendedStep
-                                  : target->extendedStep / source->extendedStep)));
-  doIf(state, ir::compare(ir::Relation::Greater, named, ir::constant(kLastSystem - kFirstSystem + 1)),
-       left + "=" + valueText(state, there, origin), origin);
-  return plus(named, ir::constant(kFirstSystem - 1));
-}
-
 void guardSystem(State& state, const ir::ExpressionPtr& given, const ir::Origin& origin,
                  const ExtendedSystems& extended) {
   const ir::ExpressionPtr system = tidy(given);
   if (const double* value = ir::constantValue(system)) {
-    if (!namesSystem(*value, extended))
-      state.refuse<diag::SystemRange>(system->range.hasPlace() ? system->range : origin.range(), *value);
+    if (namesSystem(*value, extended)) return;
+    const SystemWords words = systemWords(*value, state.options.source, state.control, "write one of those");
+    state.refuse<diag::SystemRange>(system->range.hasPlace() ? system->range : origin.range(), words.number,
+                                    words.remedy);
     return;
   }
   const auto same = std::find_if(state.systems.begin(), state.systems.end(),
@@ -340,8 +256,12 @@ void writeSystemAlarm(State& state, const NamedSystem& which, const ir::Origin& 
   }
   for (const ir::VariableId id : givenFor(state.cycle, named))
     if (const auto passes = passesNoSystem(state.cycle, id, which.number, which.extended)) {
-      state.refuse<diag::SystemNeverNamed>(origin.range(), state.cycle.variable(id).name,
-                                           numberText(passes->given), numberText(passes->number));
+      const std::string& name = state.cycle.variable(id).name;
+      const SystemWords words =
+          systemWords(passes->number, state.options.source, state.control,
+                      "correct the checks, or what the post prints from `" + name + "`");
+      state.refuse<diag::SystemNeverNamed>(origin.range(), name, numberText(passes->given), words.number,
+                                           words.remedy);
       return;
     }
   const bool more = which.extended.first != 0;

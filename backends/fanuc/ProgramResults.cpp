@@ -1,5 +1,6 @@
 #include "backends/fanuc/ProgramResults.h"
 
+#include "backends/common/MovedMacros.h"
 #include "backends/fanuc/ProgramVariables.h"
 #include "ir/Dataflow.h"
 #include "ir/Rewrite.h"
@@ -297,7 +298,8 @@ private:
     const auto number = wholeOf(store.number);
     if (!number) return computed(store.number, range_);
     if (to().keepsCalibration(*number)) {
-      diagnostics_.report<diag::StoreCalibration>(range_, *number, to().title);
+      diagnostics_.report<diag::StoreCalibration>(range_, *number, to().title,
+                                                  storeRemedy(to(), settings_.control, numbersOf(file_)));
     } else if (uses(to(), *number) && !uses(from(), *number)) {
       if (told_.insert(*number).second) diagnostics_.report<diag::StoreScratch>(range_, *number, to().title);
     } else if (from().keepsCalibration(*number) || from().probing.feedVariable == *number) {

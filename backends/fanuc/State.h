@@ -275,9 +275,13 @@ void writeSystemAlarm(State& state, const NamedSystem& system, const ir::Origin&
 void writeLengthAlarm(State& state, const ir::ExpressionPtr& offset, const ir::Origin& origin);
 // What it reads is given before the body begins, and the body changes none of it.
 bool knownAtEntry(const State& state, const ir::ExpressionPtr& value);
-// Numbers with which a macro of the set that the source calls sets G54.1 P1 and following, counted as those
-// of the system are; none where another set is called.
-ExtendedSystems extendedSystems(const State& state, const stdlib::MacroSignature& signature);
+// Numbers with which the macros of the source set G54.1 P1 and following, counted as those of the system are;
+// as far as the macro takes such numbers where it is `called` with them, and else the program writes the
+// offset.
+ExtendedSystems extendedSystems(const State& state, const stdlib::MacroSignature& signature, bool called);
+// Text of the variable that holds the offset that is set along `axis`.
+std::string offsetText(State& state, const ir::OffsetSetting& setting, ir::Axis axis,
+                       const stdlib::MacroSignature& signature, const ir::Origin& origin);
 // The number of the system as the macro of the target reads it, where that of the source reads others beyond
 // G59 (S101, S154.01). What is computed goes into a local before the call.
 ir::ExpressionPtr systemForCall(State& state, const ir::ExpressionPtr& system,

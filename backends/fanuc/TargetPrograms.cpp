@@ -1,5 +1,6 @@
 #include "backends/fanuc/TargetPrograms.h"
 
+#include "backends/common/MovedMacros.h"
 #include "backends/fanuc/Program.h"
 #include "backends/fanuc/ProgramCalls.h"
 #include "backends/fanuc/TargetEarly.h"
@@ -44,7 +45,7 @@ bool ProgramConversion::load() {
   if (!options_.probeMacros) return true;
   wanted_ = session_.macroSet(*options_.probeMacros, &*control_);
   if (wanted_ == nullptr) reportUnknownMacroSet(*options_.probeMacros, session_);
-  return wanted_ != nullptr;
+  return wanted_ != nullptr && backends::holdsKept(*wanted_, *control_, session_.diagnostics());
 }
 
 stdlib::Control ProgramConversion::sourceOf(const ir::ProgramFile& file) const {

@@ -1,6 +1,7 @@
 #include "backends/fanuc/TargetText.h"
 
 #include "sim/machine/Compile.h"
+#include "stdlib/MovedSet.h"
 #include "support/messages/Verify.h"
 #include "targets/ReadBack.h"
 
@@ -38,8 +39,8 @@ bool FanucText::readMacros(const stdlib::MacroSet& set, const stdlib::Control& c
   };
   const std::vector<ir::Program>& programs = files_.back().programs;
   if (std::none_of(programs.begin(), programs.end(), calls)) return true;
-  const stdlib::DataFile* text = session.data().find("macrob", set.name);
-  return text == nullptr || read(set.name, std::string(text->text), control, session);
+  const std::optional<std::string> text = stdlib::macroText(session.data(), set.name);
+  return !text || read(set.name, *text, control, session);
 }
 
 std::map<std::uint32_t, std::uint32_t> FanucText::storesOfTranslation() const {

@@ -7,6 +7,7 @@
 #include "project/CycleChecks.h"
 #include "sim/machine/Value.h"
 #include "sim/machine/VendorMacros.h"
+#include "stdlib/MovedSet.h"
 #include "support/Decimal.h"
 #include "verify/Exactness.h"
 
@@ -52,7 +53,7 @@ FanucVerification::FanucVerification(const VerificationSource& source)
       control_(paddingAs(*source.inputs.sourceControl, *source.inputs.control)),
       sourceSet_(source.session.macroSet(source.plan.sourceMacros, &*source.inputs.sourceControl)),
       set_(source.session.macroSet(source.plan.targetMacros, &*source.inputs.control)),
-      macrosHaveText_(set_ != nullptr && source.session.data().find("macrob", set_->name) != nullptr),
+      macrosHaveText_(set_ != nullptr && stdlib::macroText(source.session.data(), set_->name).has_value()),
       stand_(control_,
              set_ == nullptr ? std::vector<const stdlib::MacroSet*>{}
                              : std::vector<const stdlib::MacroSet*>{set_},

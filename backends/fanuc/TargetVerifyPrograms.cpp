@@ -9,6 +9,7 @@
 #include "sim/machine/Compile.h"
 #include "sim/machine/Value.h"
 #include "sim/machine/VendorMacros.h"
+#include "stdlib/MovedSet.h"
 #include "support/Files.h"
 #include "support/messages/Commands.h"
 
@@ -155,9 +156,9 @@ bool ProgramRunner::compileSource(const stdlib::Control& control, sim::Bytecode&
   for (const ir::Program& program : programs_->programs)
     programs.push_back(&program);
   if (sourceSet_ != nullptr && !macros_) {
-    if (const stdlib::DataFile* text = session_.data().find("macrob", sourceSet_->name)) {
+    if (auto text = stdlib::macroText(session_.data(), sourceSet_->name)) {
       const std::optional<FileId> id =
-          addText("macrob/" + sourceSet_->name + ".nc", std::string(text->text), Encoding::Utf8, std::nullopt,
+          addText("macrob/" + sourceSet_->name + ".nc", std::move(*text), Encoding::Utf8, std::nullopt,
                   session_.sources(), session_.diagnostics());
       if (id) macros_ = loadPrograms(*id, control, session_);
       if (!macros_) return false;

@@ -316,6 +316,15 @@ private:
     const bool index = from.systemCode == SystemCode::Index;
     const double first = index ? 1 : kFirstSystem;
     if (const double* known = ir::constantValue(value)) {
+      if (const std::uint32_t n = stdlib::extendedSystem(from, *known)) {
+        const double there = stdlib::extendedNumber(to, n);
+        if (stdlib::extendedSystem(to, there) != n)
+          return refuse(fmt::format("`{}{:g}` of {} names a work system beyond G59, which `{}` does not set; "
+                                    "take macros that set it (`--probe-macros dotek`)",
+                                    from.letter, *known, title(), target()));
+        sets_ = true;
+        return put(to, ir::constant(there, {}, fmt::format("{:g}{}", there, to.point ? "." : "")));
+      }
       if (*known < first || *known >= first + kSystems || *known != std::floor(*known))
         return refuse(fmt::format("`{}{:g}` of {} names no system G54 to G59", from.letter, *known, title()));
     } else {

@@ -1,5 +1,6 @@
 #include "backends/fusion/Emit.h"
 
+#include "backends/common/MovedMacros.h"
 #include "backends/fusion/State.h"
 #include "ir/Positions.h"
 #include "support/messages/Fanuc.h"
@@ -44,7 +45,9 @@ void checkStores(State& state) {
     if (std::none_of(scratch.begin(), scratch.end(), within)) continue;
     const auto variable = static_cast<std::uint32_t>(*number);
     if (state.options.macros.keepsCalibration(variable))
-      state.refuse<diag::StoreCalibration>(one.origin.range(), variable, state.options.macros.title);
+      state.refuse<diag::StoreCalibration>(
+          one.origin.range(), variable, state.options.macros.title,
+          storeRemedy(state.options.macros, state.options.control, numbersOf(state.cycle)));
     else
       state.diagnostics.report<diag::StoreScratch>(one.origin.range(), variable, state.options.macros.title);
   }
@@ -81,6 +84,7 @@ std::optional<std::vector<EmittedLine>> emit(const ir::Cycle& cycle, const EmitO
                                        options.control.title);
     return std::nullopt;
   }
+  if (!holdsKept(options.macros, options.control, diagnostics)) return std::nullopt;
   nameFields(state);
   checkStores(state);
 

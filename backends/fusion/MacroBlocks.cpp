@@ -487,7 +487,7 @@ void MacroBlocks::measure(const ir::Measure& measure, const ir::Origin& origin, 
     if (given.setsSystem && system->systemRule == stdlib::SystemRule::Error &&
         !requireNominal(measure, origin))
       return;
-    guardSystem(measure.setting->system, origin);
+    guardSystem(measure.setting->system, *signature, given.setsSystem, origin);
     if (!given.setsSystem) checkShift(*measure.setting, lines, origin);
   }
   for (const ir::Axis axis : ir::kAxes)
@@ -495,7 +495,10 @@ void MacroBlocks::measure(const ir::Measure& measure, const ir::Origin& origin, 
         measure.target && axis == measure.axis && measure.target->frame == ir::Frame::Work
             ? measure.target->value
             : at_[ir::indexOf(axis)].value;
-  MacroCall out = macroCall(*signature, measure, given);
+  ir::Measure sent = measure;
+  if (sent.setting && given.setsSystem)
+    sent.setting->system = systemForCall(sent.setting->system, *signature);
+  MacroCall out = macroCall(*signature, sent, given);
   // A system that the call corrects is last, as posts write it.
   std::stable_partition(out.arguments.begin(), out.arguments.end(), [](const GivenArgument& one) {
     return one.argument->role != stdlib::ArgumentRole::System ||
@@ -511,24 +514,6 @@ void MacroBlocks::measure(const ir::Measure& measure, const ir::Origin& origin, 
   for (const ir::Axis axis : ir::kAxes)
     if (measure.setting && measure.setting->nominal[ir::indexOf(axis)] != nullptr)
       at_[ir::indexOf(axis)].value = nullptr;
-}
-
-// The system of a measurement is 54 to 59.
-void MacroBlocks::guardSystem(const ir::ExpressionPtr& system, const ir::Origin& origin) {
-  if (const double* known = ir::constantValue(ir::simplify(system))) {
-    if (*known < kFirstSystem || *known > kLastSystem || *known != std::trunc(*known))
-      state_.refuse<diag::SystemRange>(origin.range(), *known);
-    return;
-  }
-  for (const ir::VariableId id : givenFor(state_.cycle, system))
-    if (const auto passes = passesNoSystem(state_.cycle, id, system, {})) {
-      state_.refuse<diag::SystemNeverNamed>(origin.range(), state_.cycle.variable(id).name,
-                                            numberText(passes->given), numberText(passes->number));
-      return;
-    }
-  const std::string text = valueText(state_, system, origin.range(), true);
-  state_.errorIf(text + " < 54 || " + text + " > 59 || " + text + " % 1 !== 0",
-                 "the work offset is not 54 to 59", origin);
 }
 
 CallValues MacroBlocks::values(const ir::Origin& origin) {

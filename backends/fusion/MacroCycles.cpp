@@ -40,7 +40,7 @@ void MacroBlocks::cycle(const ir::CallCycle& given, const ir::Origin& origin, st
         std::find_if(signature->arguments.begin(), signature->arguments.end(),
                      [](const auto& argument) { return argument.role == stdlib::ArgumentRole::System; });
     const bool takesSystem = system != signature->arguments.end();
-    guardSystem(call.setting->system, origin);
+    guardSystem(call.setting->system, *signature, takesSystem && tolerances.empty(), origin);
     for (const ir::Axis axis : ir::kAxes) {
       ir::ExpressionPtr& nominal = call.setting->nominal[ir::indexOf(axis)];
       if (!call.setting->axes[ir::indexOf(axis)]) continue;
@@ -78,6 +78,7 @@ void MacroBlocks::cycle(const ir::CallCycle& given, const ir::Origin& origin, st
         expected_[ir::indexOf(axis)].value =
             place({one.value, *one.frame, nullptr}, axis, ir::Frame::Work, origin);
   }
+  if (call.setting && !own) call.setting->system = systemForCall(call.setting->system, *signature);
   MacroCall out = macroCall(*signature, call, asked);
   for (const std::string& parameter : out.notTaken) {
     if (stdlib::isPrintout(parameter))

@@ -340,7 +340,7 @@ void MacroBlocks::writeOffset(const ir::OffsetSetting& setting, const stdlib::Ma
     if (nominal == nullptr) continue;
     const auto* result = signature.find(kPositions[ir::indexOf(axis)]);
     Text text;
-    macro(text, offsetOf(setting.system, axis), origin);
+    macro(text, settingOf(setting.system, axis), origin);
     text.add("=");
     macro(text,
           minus(plus(offsetOf(active, axis), variable(static_cast<int>(result->variable))),

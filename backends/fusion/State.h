@@ -170,6 +170,11 @@ private:
   // Why the blocks cannot write an offset themselves; "": they can.
   std::string offsetObstacle(const stdlib::MacroSignature& signature, const ir::OffsetSetting& setting) const;
   ir::ExpressionPtr offsetOf(const ir::ExpressionPtr& system, ir::Axis axis) const;
+  // The same of a system that the blocks set, which may be beyond G59.
+  ir::ExpressionPtr settingOf(const ir::ExpressionPtr& system, ir::Axis axis) const;
+  // The system as the call counts it, where the source counts those beyond G59 otherwise.
+  ir::ExpressionPtr systemForCall(const ir::ExpressionPtr& system,
+                                  const stdlib::MacroSignature& signature) const;
   // What follows the letter of a word; what the control reads is a formula there.
   void valueOfWord(Text& text, const ir::ExpressionPtr& value, const ir::Origin& origin);
   // Active offset + measured - nominal, after a check that nothing else shifts the axis.
@@ -180,7 +185,9 @@ private:
   void measure(const ir::Measure& measure, const ir::Origin& origin, std::vector<Text>& lines);
   void cycle(const ir::CallCycle& given, const ir::Origin& origin, std::vector<Text>& lines);
   CallValues values(const ir::Origin& origin);
-  void guardSystem(const ir::ExpressionPtr& system, const ir::Origin& origin);
+  // The system of a measurement is 54 to 59, or one beyond that the call takes or the blocks set.
+  void guardSystem(const ir::ExpressionPtr& system, const stdlib::MacroSignature& signature, bool called,
+                   const ir::Origin& origin);
   void call(const MacroCall& call, const ir::Origin& origin, std::vector<Text>& lines);
   void code(stdlib::Function function, std::string_view what, const ir::Origin& origin, Text& text);
   // "#138-[12.5]": an error that the macros do not leave, from what they do; false: not known.

@@ -8,6 +8,7 @@
 #include "sim/machine/Compile.h"
 #include "sim/machine/SafeMoves.h"
 #include "sim/machine/VendorMacros.h"
+#include "stdlib/MovedSet.h"
 #include "support/Decimal.h"
 #include "support/messages/Verify.h"
 #include "targets/DialogChoices.h"
@@ -61,10 +62,9 @@ public:
       return false;
     }
     if (set_ != nullptr) {
-      if (const stdlib::DataFile* text = from_.session.data().find("macrob", set_->name)) {
+      if (const auto text = stdlib::macroText(from_.session.data(), set_->name)) {
         Diagnostics found;
-        auto file =
-            readBack(set_->name, std::string(text->text), control_, from_.session.limits(), sources_, found);
+        auto file = readBack(set_->name, *text, control_, from_.session.limits(), sources_, found);
         if (!file) {
           from_.session.diagnostics().report<diag::TranslationNotRead>({}, set_->name, firstError(found));
           return false;

@@ -133,7 +133,7 @@ void askOperator(State& state, ir::Axis axis, double contact, const std::string&
 bool guardSystem(State& state, double system, SourceRange range) {
   constexpr double kFirst = 54, kLast = 59;
   if (system >= kFirst && system <= kLast) return true;
-  state.refuse<diag::SystemRange>(range, system);
+  state.refuse<diag::SystemRange>(range, numberText(system), "write one of those");
   return false;
 }
 

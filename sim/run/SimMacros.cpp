@@ -3,6 +3,7 @@
 #include "project/Programs.h"
 #include "sim/machine/Arguments.h"
 #include "sim/machine/Machine.h"
+#include "stdlib/MovedSet.h"
 #include "stdlib/ReadCall.h"
 #include "support/Ascii.h"
 #include "support/Files.h"
@@ -80,23 +81,24 @@ std::unique_ptr<SimMacros> SimMacros::load(const std::optional<std::string>& cho
   if (called.empty() && !chosen && !all) return out;
   for (const stdlib::MacroSet& set : session.macroSets(&control))
     if (!chosen || set.name == *chosen) out->sets_.push_back(&set);
+  if (chosen && out->sets_.empty())
+    if (const stdlib::MacroSet* moved = session.macroSet(*chosen, &control)) out->sets_.push_back(moved);
   if (chosen && out->sets_.empty()) {
     project::reportUnknownMacroSet(*chosen, session);
     return nullptr;
   }
   noteOwnPrograms(called, out->sets_, library, session);
   for (const stdlib::MacroSet* set : out->sets_) {
-    const stdlib::DataFile* text = session.data().find("macrob", set->name);
-    if (text == nullptr) {
+    const std::optional<std::string> text = stdlib::macroText(session.data(), set->name);
+    if (!text) {
       out->meanings_.emplace_back(*set, control);
       continue;
     }
     const bool wanted =
         std::any_of(called.begin(), called.end(), [&](std::uint32_t program) { return set->calls(program); });
     if (!wanted) continue;
-    const std::optional<FileId> id =
-        addText("macrob/" + set->name + ".nc", std::string(text->text), Encoding::Utf8, std::nullopt,
-                session.sources(), session.diagnostics());
+    const std::optional<FileId> id = addText("macrob/" + set->name + ".nc", *text, Encoding::Utf8,
+                                             std::nullopt, session.sources(), session.diagnostics());
     std::optional<ir::ProgramFile> file;
     if (id) file = loadPrograms(*id, control, session);
     if (!file) return nullptr;

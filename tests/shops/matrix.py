@@ -86,6 +86,9 @@ def remedy(message, used, control):
     for pattern, flags in offers:
         if re.search(pattern, message) and flags[0] not in used:
             return flags
+    moved = re.search(r"--probe-macros (\w+@\d+)", message)
+    if moved and "--probe-macros" not in used:
+        return ["--probe-macros", moved[1]]
     field = re.search(r"write `--set (\w+)=VALUE`", message)
     if field and "--set" not in used:
         return ["--set", f"{field[1]}=30"]
@@ -117,15 +120,18 @@ def first_error(text):
     return "", text.strip().splitlines()[0] if text.strip() else "no message", "none"
 
 
+def macros(cell):
+    given = not cell.macros or "--probe-macros" in cell.flags
+    return [] if given else ["--probe-macros", cell.macros]
+
+
 def measure(cell):
     arguments = [str(cell.cycle.folder), *cell.cycle.arguments, "--to", cell.target, "--control", cell.control]
-    if cell.macros:
-        arguments += ["--probe-macros", cell.macros]
     if cell.target == "mikroprog":
         arguments += mikroprog_host
     with tempfile.TemporaryDirectory() as folder:
         while True:
-            status, _, errors = run(["convert", *arguments, *cell.flags, "-o", f"{folder}/out", "--force"])
+            status, _, errors = run(["convert", *arguments, *macros(cell), *cell.flags, "-o", f"{folder}/out", "--force"])
             if status == 0:
                 break
             place, cell.message, cell.code = first_error(errors)
@@ -137,6 +143,7 @@ def measure(cell):
             cell.flags += flags
     assumed = ["--assume", "probe-on"] if "--probe-power" in cell.flags else []
     flags = [flag for flag in cell.flags if flag not in ("--probe-power", "macro")]
+    arguments += macros(cell)
     status, output, errors = run(["verify", *arguments, *flags, *assumed, "--cases", str(cases), "--jobs", "1"])
     if status != 0 and "--assume probe-on" in errors and not assumed:
         # the branch leaves the probe to another routine

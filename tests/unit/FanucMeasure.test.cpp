@@ -18,7 +18,8 @@ ir::Measure bore(ExpressionPtr diameter, ExpressionPtr system, ExpressionPtr x, 
 
 TEST_CASE("fanuc measure: travel becomes a target where the macro wants one") {
   SurfaceCycle cycle;
-  const Target target("inspection-plus");
+  Target target("inspection-plus");
+  target.options.source = nullptr; // one that names no systems beyond G59
   SUBCASE("from the start, which is read") {
     const Emission out = target.emit(cycle.cycle);
     checkProgram(out);
@@ -175,7 +176,11 @@ TEST_CASE("fanuc measure: writing an offset of Z asks for no shift of Z") {
   const SurfaceCycle x;
   CHECK_FALSE(Target("inspection-plus").emit(x.cycle).holds("#5043"));
   const SurfaceCycle z(ir::Axis::Z);
-  const Emission out = Target("inspection-plus").emit(z.cycle);
+  Target target("inspection-plus");
+  const std::string beyond = target.emit(z.cycle).all();
+  CHECK(beyond.find("=7003.+20.*[#19-154.]") != std::string::npos);
+  target.options.source = nullptr; // one that names no systems beyond G59
+  const Emission out = target.emit(z.cycle);
   checkProgram(out);
   CHECK(out.holds("#5043"));
   CHECK(out.has("#[5223+[#19-54]*20]=#[5223+[#4014-54]*20]+#137-#6"));

@@ -19,7 +19,7 @@ struct Own {
   explicit Own(double ball = kBall) : world(ball), signal(world, kLength) {}
 
   // Is at X Y Z of G54, under G91 and G1 with F1234, and runs `blocks`. #500 to #505: codes and place
-  // after them, #506 to #511: offsets of G54 and G57.
+  // after them, #506 to #511: offsets of G54 and G57, #512 to #514 of G54.1 P1 (X) and P48 (X, Y).
   const MacroRun& run(const std::string& start, const std::string& blocks,
                       const std::string& control = "fanuc-0i-md") {
     std::string text = fmt::format("O1\nG21G17G40G49G80G90G94G54\nG10L10P1R{}.\n"
@@ -28,7 +28,8 @@ struct Own {
     text += "#520=3.\n#521=500.\n#522=50.\n#523=0.5\n" + settings + "G0" + start.substr(0, start.find('Z')) +
             "\nG43H1" + start.substr(start.find('Z')) + "\nG91G1F1234.\n" + modes + blocks + "\n";
     text += "#500=#4001\n#501=#4003\n#502=#4109\nG53\n#503=#5041\n#504=#5042\n#505=#5043-#5083\n"
-            "#506=#5221\n#507=#5222\n#508=#5223\n#509=#5281\n#510=#5282\n#511=#5283\nM30\n";
+            "#506=#5221\n#507=#5222\n#508=#5223\n#509=#5281\n#510=#5282\n#511=#5283\n#512=#7001\n#513=#"
+            "7941\n#514=#7942\nM30\n";
     last = std::make_unique<MacroRun>(text + ownMacros(), controlOf(control), &signal);
     CHECK(last->run->earlyReads().empty());
     return *last;
@@ -113,6 +114,15 @@ TEST_CASE("own macros: features on placed parts, both controls") {
        "G65P8811Z-20.S1.",
        [](ContactWorld& w) { floor(w, -20.25); },
        {{508, kZ - 0.25}, {509, 7}, {506, kX}}},
+      // Beyond G59, as Inspection Plus numbers them.
+      {"X0Y0Z0",
+       "G65P8811X20.S101",
+       [](ContactWorld& w) { wall(w, 20.3, 0, 180); },
+       {{512, kX + 0.3}, {506, kX}, {509, 7}}},
+      {"X10.Y20.Z-5.",
+       "G65P8814D40.S148",
+       [](ContactWorld& w) { w.bore(kX + 10.7, kY + 19.6, 40.05); },
+       {{513, kX + 0.7}, {514, kY - 0.4}, {506, kX}, {507, kY}, {509, 7}}},
       {"X10.Y20.Z-5.",
        "G65P8814D40.S4",
        [](ContactWorld& w) { w.bore(kX + 10.7, kY + 19.6, 40.05); },
@@ -318,6 +328,10 @@ TEST_CASE("own macros: alarms") {
       {"G65P8821A10.D20.", "alarm 3092", "", "", near},
       {"G65P8821A10.D20.", "alarm 3095", "#520=0\n"},
       {"G65P8821A10.D20.", "alarm 3095", "#523=0\n"},
+      {"G65P8811X20.S7", "alarm 3091"},
+      {"G65P8811X20.S100", "alarm 3091"},
+      {"G65P8811X20.S149", "alarm 3091"},
+      {"G65P8811X20.S101.5", "alarm 3091"},
       {"G65P8821A10.D2.Q0.5", "alarm 3091"},
       {"G65P8822A10.", "alarm 3091"},
       {"G65P8822A10.D5.Q0.4", "alarm 3091"},
@@ -374,6 +388,12 @@ TEST_CASE("own macros: `new macros` prints the text for the control, and has non
   const driver::Outcome own = driver::newMacros("dotek", {});
   CHECK(own.status == 0);
   CHECK(own.output == readAll(root() / "stdlib/macrob/dotek.nc"));
+  const std::string moved = driver::newMacros("dotek@900", {}).output;
+  CHECK(moved.size() == own.output.size());
+  CHECK(moved.find("#52") == std::string::npos);
+  CHECK(moved.find("F#901\n") != std::string::npos);
+  for (const char* none : {"inspection-plus@900", "dotek@", "dotek@x", "dotek@90", "dotek@900x"})
+    CHECK(driver::newMacros(none, {}).status == 1);
   const driver::Outcome vendor = driver::newMacros("inspection-plus", {});
   CHECK(vendor.status == 1);
   CHECK(vendor.output.empty());

@@ -139,7 +139,10 @@ TEST_CASE("a surface: coordinate and travel by the position, Z without the tool'
   CHECK(toEasy("9811 X20.") ==
         "refused: P9023 of `easyprobe` wants `S`, its system, and the call states none");
   CHECK(toEasy("9811 X20. S1 Q5.") == "G53 P9023 S54 X" + beyond("[20-#5041]", "5") + " I20");
-  CHECK(toEasy("9811 X20. S101").find("names no system G54 to G59") != std::string::npos);
+  CHECK(toEasy("9811 X20. S7").find("names no system G54 to G59") != std::string::npos);
+  CHECK(toEasy("9811 X20. S101")
+            .find("beyond G59, which `easyprobe` does not set; take macros that set it "
+                  "(`--probe-macros dotek`)") != std::string::npos);
 }
 
 TEST_CASE("a computed system is checked before the call") {

@@ -64,6 +64,47 @@ TEST_CASE("verify: work offsets beyond G59 keep the numbers of the source in the
   CHECK(differs(bore, replaced(good, "154.01", "154.02")));
 }
 
+TEST_CASE("verify: work offsets beyond G59 are set with Dotek's own macros, by the program where a limit "
+          "comes first") {
+  for (const char* control : {"haas-ngc", "fanuc-0i-md"}) {
+    const Shop slot{"vandoorn", "VD_SLEUF_G154", "meten", "fanuc", "dotek", control};
+    const std::string good = converted(slot);
+    CHECK_MESSAGE(good.find("\n#[7002+20*ROUND[[#28-154.01]*100]]=") != std::string::npos, good);
+    CHECK_MESSAGE(agrees(verified(slot)), verified(slot));
+    CHECK(differs(slot, replaced(good, "#[7002+", "#[7022+")));
+  }
+  const Shop printed{"vandoorn", "VD_SLEUF_G154", "meten", "fusion", "dotek", "haas-ngc"};
+  const std::string fragment = converted(printed);
+  CHECK_MESSAGE(agrees(verified(printed)), verified(printed));
+  CHECK(differs(printed, replaced(fragment, "7002 +", "7022 +")));
+}
+
+TEST_CASE(
+    "verify: Dotek's own macros with their settings elsewhere leave the variables of the branch alone") {
+  const auto coded = [](const Shop& of, std::string_view code) {
+    driver::ConvertOptions options;
+    take(of, options);
+    const driver::Outcome outcome = driver::convert(options);
+    std::string text;
+    for (const Diagnostic& one : outcome.diagnostics.all())
+      if (one.code == code) text += one.message + "\n";
+    return text;
+  };
+  Shop wall{"moreira", "MR.Parede.Incl", "medir", "fanuc", "dotek", "fanuc-0i-md"};
+  CHECK(coded(wall, "store-calibration").find("`--probe-macros dotek@900`") != std::string::npos);
+  wall.macros = "dotek@900";
+  const std::string good = converted(wall);
+  CHECK(good.find("(SET BEFORE THE FIRST CALL: #900 RADIUS") != std::string::npos);
+  CHECK_MESSAGE(agrees(verified(wall)), verified(wall));
+  wall.to = "fusion";
+  wall.control = "fanuc-31i-b";
+  CHECK_MESSAGE(agrees(verified(wall)), verified(wall));
+  wall.to = "fanuc";
+  wall.control = "haas-ngc";
+  wall.macros = "dotek@700"; // no variables of a Haas
+  CHECK(coded(wall, "macro-variables-lost").find("#700 to #703") != std::string::npos);
+}
+
 TEST_CASE("verify: a Haas dwells by P, and another control has no G103") {
   const Shop here{"vandoorn", "VD_HOEK_BUITEN", "meten", "fanuc", "inspection-plus", "haas-ngc"};
   const std::string own = converted(here);
