@@ -1,5 +1,7 @@
 #include "stdlib/VariableNumbers.h"
 
+#include "stdlib/RadiusOffsets.h"
+
 #include <algorithm>
 
 namespace dotek::stdlib {
@@ -71,9 +73,12 @@ bool isReadAlone(const Control& control, std::uint32_t variable) {
 
 bool isOfTools(const Control& control, std::uint32_t variable) {
   const SystemVariables& v = control.variables;
+  const RadiusOffsets radii = radiusOffsets(control);
   const auto number = static_cast<long>(variable);
   return within(v.toolWear, number, v.toolCount + 1) || within(v.toolGeometry, number, v.toolCount + 1) ||
-         within(v.toolWearToo, number, v.toolCount + 1) || within(v.toolGeometryToo, number, v.toolCount + 1);
+         within(v.toolWearToo, number, v.toolCount + 1) ||
+         within(v.toolGeometryToo, number, v.toolCount + 1) || within(radii.wear, number, v.toolCount + 1) ||
+         within(radii.geometry, number, v.toolCount + 1);
 }
 
 bool isOfOffsets(const Control& control, std::uint32_t variable) {

@@ -3,6 +3,7 @@
 #include "ir/Dataflow.h"
 #include "ir/NumberSet.h"
 #include "ir/Walk.h"
+#include "stdlib/RadiusOffsets.h"
 #include "verify/VariableFlow.h"
 
 #include <algorithm>
@@ -151,9 +152,11 @@ private:
     const auto within = [](double value, const std::optional<int>& first, int count) {
       return first && value >= *first - count && value <= *first + count;
     };
+    const stdlib::RadiusOffsets radii = stdlib::radiusOffsets(control_);
     VariableUse out = VariableUse::Whole;
     for (const double one : constants) {
-      if (within(one, v.toolWear, v.toolCount) || within(one, v.toolGeometry, v.toolCount) ||
+      if (within(one, radii.wear, v.toolCount) || within(one, radii.geometry, v.toolCount) ||
+          within(one, v.toolWear, v.toolCount) || within(one, v.toolGeometry, v.toolCount) ||
           within(one, v.toolWearToo, v.toolCount) || within(one, v.toolGeometryToo, v.toolCount))
         out = std::max(out, VariableUse::ToolOffset);
       if (v.extendedStep > 0 && within(one, v.extendedX, v.extendedStep))

@@ -8,6 +8,7 @@
 #include "ir/Evaluate.h"
 #include "ir/Rewrite.h"
 #include "ir/Walk.h"
+#include "stdlib/RadiusOffsets.h"
 #include "stdlib/VariableNumbers.h"
 #include "support/Decimal.h"
 #include "support/messages/Fanuc.h"
@@ -488,9 +489,10 @@ bool isSettable(const stdlib::Control& control, std::uint32_t number) {
   const auto tools = [&](const std::optional<int>& base) {
     return base && static_cast<int>(number) > *base && static_cast<int>(number) <= *base + v.toolCount;
   };
-  return offsets(v.externalX, 1, 0) || offsets(v.workOffsetX, 6, v.systemStep) ||
-         offsets(v.extendedX, v.extendedCount, v.extendedStep) || tools(v.toolWear) ||
-         tools(v.toolGeometry) || tools(v.toolWearToo) || tools(v.toolGeometryToo) ||
+  const stdlib::RadiusOffsets radii = stdlib::radiusOffsets(control);
+  return tools(radii.wear) || tools(radii.geometry) || offsets(v.externalX, 1, 0) ||
+         offsets(v.workOffsetX, 6, v.systemStep) || offsets(v.extendedX, v.extendedCount, v.extendedStep) ||
+         tools(v.toolWear) || tools(v.toolGeometry) || tools(v.toolWearToo) || tools(v.toolGeometryToo) ||
          (v.timer && static_cast<int>(number) == *v.timer) ||
          (v.hours && static_cast<int>(number) == *v.hours);
 }
