@@ -8,6 +8,7 @@
 #include "ir/Fold.h"
 #include "ir/Linear.h"
 #include "ir/Walk.h"
+#include "stdlib/KeptResults.h"
 #include "support/Decimal.h"
 #include "support/messages/Fanuc.h"
 #include "support/messages/Fusion.h"
@@ -379,7 +380,8 @@ void MacroBlocks::move(const ir::Move& move, const ir::Origin& origin, std::vect
       state_.refuse<diag::MacroSetCannot>(origin.range(), state_.options.macros.title,
                                           std::string("a protected move along ") + ir::letterOf(*axis));
     call(macroCall(*signature, move, values(origin)), origin, lines);
-    setLast(nullptr); // the macro works in the variables of the results
+    // Else the macro may work in the variables of the results.
+    if (!stdlib::keepsResults(*signature)) setLast(nullptr);
   } else {
     Text text;
     code(Function::Absolute, "absolute programming", origin, text);

@@ -5,6 +5,7 @@
 #include "ir/Flow.h"
 #include "ir/Fold.h"
 #include "ir/Walk.h"
+#include "stdlib/KeptResults.h"
 #include "support/Decimal.h"
 #include "support/messages/Fanuc.h"
 #include "support/messages/Fusion.h"
@@ -30,7 +31,10 @@ FoundResult resultIn(const stdlib::MacroSet& macros, const ir::CycleStatement* m
 
 bool MacroBlocks::overwritesResults(const ir::CycleStatement& statement) const {
   return ir::match(
-      statement, [](const ir::Move& node) { return node.motion == ir::Motion::Protected; },
+      statement,
+      [&](const ir::Move& node) {
+        return node.motion == ir::Motion::Protected && !stdlib::moveKeepsResults(state_.options.macros);
+      },
       [&](const ir::OpaqueBlock& node) {
         return !movesNothing(node) &&
                std::any_of(node.words.begin(), node.words.end(),

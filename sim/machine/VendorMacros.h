@@ -10,6 +10,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace dotek::sim {
 
@@ -20,6 +21,7 @@ struct VendorMemory {
   bool passUnstated = false;
   std::uint32_t measured = 0; // calls that measure, so far
   bool touchesApart = false;
+  std::vector<bool> results; // by variable: what calls leave that measure, once it is asked for
 };
 
 // What an alarm without a text of its own tells the operator.

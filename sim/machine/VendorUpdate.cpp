@@ -1,6 +1,7 @@
 // What a call leaves: tolerances that stop, offsets, results.
 #include "sim/machine/Measurement.h"
 #include "sim/machine/VendorRun.h"
+#include "stdlib/KeptResults.h"
 
 #include <algorithm>
 #include <cmath>
@@ -245,10 +246,15 @@ void VendorRun::leaveUnstated(std::uint32_t variable, std::optional<Output> mean
 void VendorRun::writeResults() {
   const bool measures = signature_.intent != Intent::ProtectedMove && signature_.intent != Intent::ProbeOn &&
                         signature_.intent != Intent::ProbeOff;
+  const bool keeps = stdlib::keepsResults(signature_);
+  if (keeps && memory_.results.empty()) memory_.results = stdlib::measuredVariables(set_);
+  const auto isResult = [&](std::uint32_t variable) {
+    return variable < memory_.results.size() && memory_.results[variable];
+  };
   if (measures) ++memory_.measured;
   for (const auto& [first, last] : set_.overwritten)
     for (std::uint32_t variable = first; (measures || !memory_.passUnstated) && variable <= last; ++variable)
-      if (variable != set_.probing.feedVariable) leaveUnstated(variable);
+      if (variable != set_.probing.feedVariable && !(keeps && isResult(variable))) leaveUnstated(variable);
   if (feed_ && set_.probing.feedVariable) machine_.write(*set_.probing.feedVariable, *feed_);
   for (const stdlib::MacroResult& result : signature_.results) {
     const auto holds = result.documented ? std::optional<Output>(result.output) : result.taken;
