@@ -136,7 +136,8 @@ std::optional<Layout> programLayout(const std::string& path, Session& session) {
   std::string meaning;
   { // one tree at a time: they are many times as large as their text
     const macrob::File file =
-        macrob::parse(*id, sources, session.limits(), session.diagnostics(), textOf(*id, session));
+        macrob::parse(*id, sources, session.limits(), session.diagnostics(), textOf(*id, session),
+                      macrob::Reader::Fast, formsOf(*id, session));
     if (file.hasErrors) return std::nullopt; // the reader has said why
     text = macrob::format(file, sources);
     if (text) meaning = macrob::dumpAst(file, sources, false);
@@ -150,7 +151,8 @@ std::optional<Layout> programLayout(const std::string& path, Session& session) {
   const SourceFile& before = sources.file(*id);
   const FileId again = sources.add(SourceFile(before.name(), *text, before.encoding()));
   Diagnostics unheard;
-  const macrob::File after = macrob::parse(again, sources, session.limits(), unheard, macrob::Text::Program);
+  const macrob::File after = macrob::parse(again, sources, session.limits(), unheard, macrob::Text::Program,
+                                           macrob::Reader::Fast, formsOf(*id, session));
   if (meaning != macrob::dumpAst(after, sources, false)) return wouldDiffer(path, *id, session);
   return layoutOf(path, before, *text, session.limits());
 }

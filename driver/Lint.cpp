@@ -361,7 +361,11 @@ private:
     if (!id) return;
     if (kind == InputKind::Suf) return suf(*id);
     if (kind == InputKind::Nc) {
-      const auto& programs = compilation_.addPrograms(*id);
+      const auto settings = projects_.settingsOf(*id);
+      const stdlib::Control* const control =
+          settings.control.empty() ? nullptr : session_.control(settings.control, settings.probe);
+      const auto& programs = compilation_.addPrograms(
+          *id, control == nullptr ? frontend::macrob::Forms{} : frontend::macrob::formsOf(*control));
       if (programs.programs.empty())
         session_.diagnostics().report<diag::NoProgram>({*id, 0, 0}, inputName(path), "checked");
       return;

@@ -30,7 +30,8 @@ std::optional<macrob::File> parsed(const std::string& path, Session& session) {
   if (!kindAmong(path, {InputKind::Nc}, kExpected, session)) return std::nullopt;
   const std::optional<FileId> id = session.read(path, Encoding::Cp1250);
   if (!id) return std::nullopt;
-  return macrob::parse(*id, session.sources(), session.limits(), session.diagnostics(), textOf(*id, session));
+  return macrob::parse(*id, session.sources(), session.limits(), session.diagnostics(), textOf(*id, session),
+                       macrob::Reader::Fast, formsOf(*id, session));
 }
 
 bool hasInputs(const std::vector<std::string>& inputs, const char* command, Session& session) {

@@ -48,6 +48,10 @@ std::optional<ProbeStep::Kind> meaning(const Project& project, std::uint32_t pro
       }
     }
   }
+  // Off is off with a letter more; that it is on then is not known.
+  for (const stdlib::MacroSet& set : project.macroSets)
+    for (const stdlib::MacroSignature* signature : set.of(program))
+      if (signature->intent == stdlib::Intent::ProbeOff) return ProbeStep::Kind::Off;
   return std::nullopt;
 }
 

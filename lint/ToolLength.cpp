@@ -14,6 +14,7 @@
 namespace dotek::lint {
 namespace {
 
+constexpr std::uint32_t kBlockEndZ = 5003;
 constexpr double kMostTolerance = 10; // mm; more is no tolerance of a contact
 
 // Canned cycles, whose R is a coordinate under G90 as Z is.
@@ -181,8 +182,13 @@ private:
   void judgeDifferences(const ir::ProgramStatement& statement, const Fact& fact) {
     ir::eachNode(statement, [&](const ir::Expression& one) {
       const auto* binary = std::get_if<ir::Binary>(&one.node);
-      if (binary != nullptr && binary->op == ir::BinaryOp::Subtract)
-        judgePair(binary->left, binary->right, fact);
+      if (binary == nullptr || binary->op != ir::BinaryOp::Subtract) return;
+      // Taken off the end of the block, which holds no length, the position gives the length.
+      bool end = false;
+      for (const ir::ExpressionPtr& side : {binary->left, binary->right})
+        ir::eachNode(side,
+                     [&](const ir::Expression& node) { end = end || variableNumber(node) == kBlockEndZ; });
+      if (!end) judgePair(binary->left, binary->right, fact);
     });
     if (const ir::ConditionPtr* condition = ir::conditionOf(statement); condition != nullptr && *condition)
       judgeCondition(*condition, fact);

@@ -82,10 +82,10 @@ const gibbs::DefineData& Compilation::addDefineData(FileId file) {
   return defines_.emplace_back(gibbs::parseDefineData(file, contextOf(session_)));
 }
 
-const macrob::File& Compilation::addPrograms(FileId file) {
+const macrob::File& Compilation::addPrograms(FileId file, macrob::Forms forms) {
   const macrob::Text text = textOf(file, session_);
-  return programs_.emplace_back(
-      macrob::parse(file, session_.sources(), session_.limits(), session_.diagnostics(), text));
+  return programs_.emplace_back(macrob::parse(file, session_.sources(), session_.limits(),
+                                              session_.diagnostics(), text, macrob::Reader::Fast, forms));
 }
 
 CycleFolder& Compilation::addFile(const std::string& path) {

@@ -4,6 +4,7 @@
 #include "frontend/compost/Ast.h"
 #include "frontend/gibbs/Ast.h"
 #include "frontend/macrob/Ast.h"
+#include "frontend/macrob/Forms.h"
 #include "ir/Program.h"
 #include "project/CallsAs.h"
 #include "project/CycleFolder.h"
@@ -53,7 +54,7 @@ public:
   const frontend::gibbs::Macro& addMacro(FileId file);
   const frontend::gibbs::Dialog& addDialog(FileId file);
   const frontend::gibbs::DefineData& addDefineData(FileId file);
-  const frontend::macrob::File& addPrograms(FileId file);
+  const frontend::macrob::File& addPrograms(FileId file, frontend::macrob::Forms forms = {});
 
   // The same, in the order in which they were added.
   const std::deque<std::shared_ptr<const frontend::compost::Program>>& progs() const { return progs_; }

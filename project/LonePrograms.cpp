@@ -31,9 +31,10 @@ bool isWithin(const SourceRange& range, std::uint32_t begin, std::uint32_t end) 
 
 } // namespace
 
-std::vector<LoneProgram> lonePrograms(FileId file, Session& session) {
+std::vector<LoneProgram> lonePrograms(FileId file, const stdlib::Control& control, Session& session) {
   Diagnostics found;
-  macrob::File tree = macrob::parse(file, session.sources(), session.limits(), found, textOf(file, session));
+  macrob::File tree = macrob::parse(file, session.sources(), session.limits(), found, textOf(file, session),
+                                    macrob::Reader::Fast, macrob::formsOf(control));
   std::erase_if(found.all(), [](const Diagnostic& d) { return d.severity != Severity::Error; });
   std::vector<LoneProgram> out(tree.programs.size());
   bool explained = false; // an error of the file is one of a program

@@ -20,7 +20,7 @@ struct LoneProgram {
 };
 
 // In the order of the file. A number that the first program lacks is that of the file's name, as in O1234.nc.
-std::vector<LoneProgram> lonePrograms(FileId file, Session& session);
+std::vector<LoneProgram> lonePrograms(FileId file, const stdlib::Control& control, Session& session);
 
 // nullopt where the program cannot run on the control: reported.
 std::optional<ir::Program> lowerAlone(LoneProgram& program, const stdlib::Control& control, Session& session);

@@ -84,7 +84,7 @@ std::optional<ir::ProgramFile> ProgramLibrary::loadMain(FileId main, const stdli
   std::optional<ir::ProgramFile> file = loadPrograms(main, control, session);
   if (!file) {
     Diagnostics ofAll = std::exchange(session.diagnostics(), Diagnostics());
-    std::vector<LoneProgram> programs = lonePrograms(main, session);
+    std::vector<LoneProgram> programs = lonePrograms(main, control, session);
     std::optional<ir::Program> first;
     if (programs.size() > 1) first = lowerAlone(programs.front(), control, session);
     if (first) {
@@ -163,11 +163,11 @@ bool ProgramLibrary::find(const std::string& folder, Session& session) {
   return true;
 }
 
-bool ProgramLibrary::read(Unread& file, Session& session) {
+bool ProgramLibrary::read(Unread& file, const stdlib::Control& control, Session& session) {
   if (refusesStream(file.path, {}, session)) return false;
   const std::optional<FileId> id = session.read(file.path, Encoding::Cp1250);
   if (!id) return false;
-  for (LoneProgram& one : lonePrograms(*id, session))
+  for (LoneProgram& one : lonePrograms(*id, control, session))
     waiting_.push_back(std::move(one));
   return true;
 }
@@ -204,7 +204,7 @@ bool ProgramLibrary::addCalled(const stdlib::Control& control, Session& session)
       if (!wanted)
         unread_.push_back(std::move(file));
       else
-        good = read(file, session) && good;
+        good = read(file, control, session) && good;
     }
     std::vector<LoneProgram> programs = std::exchange(waiting_, {});
     for (LoneProgram& one : programs) {
@@ -239,7 +239,7 @@ void ProgramLibrary::addPossible(const stdlib::Control& control, Session& sessio
     for (Unread& file : files) {
       if (std::none_of(file.numbers.begin(), file.numbers.end(), isPossible))
         unread_.push_back(std::move(file));
-      else if (!read(file, session)) {
+      else if (!read(file, control, session)) {
         leftOut.insert(file.path);
         for (const std::uint64_t number : file.numbers)
           unreadable_.emplace(number, file.path);

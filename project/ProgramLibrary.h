@@ -57,7 +57,7 @@ private:
   void addUncalled(FileId main, const stdlib::Control& control, Session& session);
   bool addFolders(const std::vector<std::string>& folders, const stdlib::Control& control, Session& session);
   bool find(const std::string& folder, Session& session);
-  bool read(Unread& file, Session& session);
+  bool read(Unread& file, const stdlib::Control& control, Session& session);
   Calls calls(const stdlib::Control& control) const;
   bool addCalled(const stdlib::Control& control, Session& session);
   void addPossible(const stdlib::Control& control, Session& session);

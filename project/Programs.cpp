@@ -21,6 +21,15 @@ frontend::macrob::Text textOf(FileId file, Session& session) {
   return listing ? Text::Listing : Text::Program;
 }
 
+frontend::macrob::Forms formsOf(FileId file, Session& session) {
+  const std::string path = session.sources().file(file).name();
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return {};
+  const std::string name = settingsOf(path, session).control;
+  const stdlib::Control* const control = name.empty() ? nullptr : session.control(name);
+  return control == nullptr ? frontend::macrob::Forms{} : frontend::macrob::formsOf(*control);
+}
+
 bool isProgramFile(const std::string& path, Session& session) {
   std::error_code error;
   const bool file =
@@ -40,7 +49,8 @@ Loaded load(FileId file, const stdlib::Control& control, Session& session, front
   Diagnostics found;
   const frontend::macrob::Text text = textOf(file, session);
   const frontend::macrob::File tree =
-      frontend::macrob::parse(file, session.sources(), session.limits(), found, text);
+      frontend::macrob::parse(file, session.sources(), session.limits(), found, text,
+                              frontend::macrob::Reader::Fast, frontend::macrob::formsOf(control));
   for (Diagnostic& one : found.all())
     if (one.severity == Severity::Error) session.diagnostics().add(std::move(one));
   return {frontend::macrob::lower(tree, control, session.sources(), session.diagnostics(), use), tree.leader};

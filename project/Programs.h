@@ -14,6 +14,9 @@ namespace dotek::project {
 // What --from says of NC files, else the dotek.toml of this one.
 frontend::macrob::Text textOf(FileId file, Session& session);
 
+// What the control takes that the dotek.toml of this file names.
+frontend::macrob::Forms formsOf(FileId file, Session& session);
+
 // false for a folder and for what is not there. Of a file that is no program it is reported what it is.
 bool isProgramFile(const std::string& path, Session& session);
 

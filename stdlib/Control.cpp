@@ -20,6 +20,15 @@ constexpr std::string_view kMacroFunctions[] = {
     "ABS", "ACOS", "ADP", "ASIN", "ATAN", "ATAN[y]", "ATAN[y]/[x]", "ATAN[y,x]", "BCD", "BIN", "COS", "EXP",
     "FIX", "FUP",  "LN",  "MOD",  "POW",  "ROUND",   "SIN",         "SQRT",      "TAN", "AND", "OR",  "XOR"};
 
+// Keys that are true where the control takes what others refuse: `WH[..]` for WHILE, IF without THEN and with
+// an NC block after it, `#30057.21` (a bit, or one axis, of a parameter), comments in comments, small
+// letters, DPRNT without POPEN, G53 as a distance under G91.
+constexpr std::string_view kLanguageForms[] = {
+    "abbreviated_words",         "then_optional", "parameter_bits",
+    "nested_comments",           "small_letters", "print_without_port",
+    "incremental_machine_moves",
+};
+
 } // namespace
 
 Control ControlReader::read() {
@@ -130,6 +139,9 @@ void ControlReader::language() {
     if (!control_.functions.insert(name).second)
       document_.fail(item.range(), fmt::format("`{}` is given twice", name));
   }
+  // Kept among the names, which no function shares.
+  for (const std::string_view form : kLanguageForms)
+    if (table.value(std::string(form)).flag()) control_.functions.emplace(form);
   for (const std::string& name : control_.functions) {
     if (name.starts_with("ATAN[") && !control_.functions.contains("ATAN"))
       document_.fail(table.range("functions"),

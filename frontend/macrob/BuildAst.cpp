@@ -163,7 +163,10 @@ ThenStatement Builder::thenStatement(Parser::ThenStatementContext& context) {
   if (auto* part = context.printStatement()) return print(*part);
   if (auto* part = context.portStatement()) return Port{part->getStart()->getText().starts_with("PO")};
   if (auto* part = context.nameStatement()) return setNames(*part);
-  fail<diag::ThenTakesMacroStatement>(rangeOf(context));
+  if (forms_.thenOptional)
+    fail<diag::BlockAfterCondition>(rangeOf(context));
+  else
+    fail<diag::ThenTakesMacroStatement>(rangeOf(context));
   return Port{};
 }
 
@@ -283,6 +286,14 @@ ExpressionPtr Builder::number(Value value, SourceRange range) {
 ConditionPtr Builder::condition(Parser::BracketContext& context) {
   Value value = bracket(context);
   if (value.condition) return std::move(value.condition);
+  if (value.number && forms_.parameterBits) { // true where it is not 0
+    const SourceRange range = rangeOf(context);
+    auto out = std::make_unique<Condition>();
+    out->range = range;
+    out->brackets = std::exchange(value.number->brackets, 0);
+    out->node = Comparison{"NE", std::move(value.number), expressionOf(range, nc::Number{"0", 0, false})};
+    return out;
+  }
   fail<diag::ConditionWithoutComparison>(rangeOf(context));
   return nullptr;
 }
@@ -407,8 +418,10 @@ ExpressionPtr Builder::variable(Parser::VariableContext& context) {
   if (context.NUMBER() != nullptr) {
     const antlr4::Token& token = *context.NUMBER()->getSymbol();
     out.number = numberOf(token);
-    if (std::get<nc::Number>(out.number->node).point)
-      fail<diag::VariableNumberForm>(rangeOf(token), token.getText());
+    // A parameter's number and, after the point, its bit or axis.
+    const auto& number = std::get<nc::Number>(out.number->node);
+    const bool bit = forms_.parameterBits && number.value >= 30000 && number.value < 31000;
+    if (number.point && !bit) fail<diag::VariableNumberForm>(rangeOf(token), token.getText());
   } else {
     out.number = number(bracket(*context.bracket()), rangeOf(*context.bracket()));
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "frontend/macrob/Ast.h"
+#include "frontend/macrob/Forms.h"
 #include "frontend/macrob/Tokens.h"
 #include "support/Diagnostics.h"
 
@@ -16,7 +17,7 @@ namespace dotek::frontend::macrob {
 // it.
 class Builder {
 public:
-  explicit Builder(FileId file) : file_(file) {}
+  Builder(FileId file, Forms forms) : file_(file), forms_(forms) {}
 
   Block block(grammar::MacroBParser::BlockContext& context);
   // nullopt: the block is good.
@@ -67,6 +68,7 @@ private:
   ExpressionPtr function(Parser::FunctionContext& context);
 
   FileId file_;
+  Forms forms_;
   std::optional<Diagnostic> error_;
 };
 

@@ -9,6 +9,7 @@
 #include <cctype>
 #include <cmath>
 #include <fmt/format.h>
+#include <map>
 #include <utility>
 
 namespace dotek::frontend::macrob {
@@ -263,8 +264,22 @@ void wordRepeated(const CheckedProgram& input, Report& report) {
     });
     if (calls) continue;
     std::array<const nc::Word*, 128> first{};
+    std::map<std::pair<char, double>, const nc::Word*> codes;
     for (const nc::Word& word : words->words) {
-      if (word.address == 'G' || word.address == 'M' || word.value == nullptr) continue;
+      if (word.value == nullptr) continue;
+      if (word.address == 'G' || word.address == 'M') {
+        const auto code = literal(word);
+        if (!code) continue;
+        const auto [before, added] = codes.try_emplace({word.address, *code}, &word);
+        if (!added)
+          report
+              .at(word.range,
+                  "`{}{}` is twice in the block; another code may be meant, or a block of its own; leave one "
+                  "out",
+                  word.address, *code)
+              .note(before->second->range, "the first one");
+        continue;
+      }
       const nc::Word*& before = first[static_cast<unsigned char>(word.address) & 127U];
       if (before != nullptr)
         report

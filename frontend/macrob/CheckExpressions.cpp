@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <map>
 #include <set>
 
 namespace dotek::frontend::macrob {
@@ -77,6 +78,49 @@ bool isHalved(const Expression& expression) {
   const bool state = variableNumber(*operation->left).value_or(0) >= kFirstState;
   return *divisor == 2 || *divisor == 4 || *divisor == 8 || (state && isWhole(*divisor));
 }
+
+// Whether a value is whole wherever it comes from: clocks, what is cut or rounded, sums and products of
+// these.
+class Wholes {
+public:
+  explicit Wholes(const Program& program) {
+    for (const Block& block : program.blocks) {
+      const nc::Assignment* assignment = assignmentOf(block);
+      const auto* target =
+          assignment == nullptr ? nullptr : std::get_if<nc::Number>(&assignment->variable->node);
+      if (target != nullptr)
+        set_[static_cast<std::uint32_t>(target->value)].push_back(assignment->value.get());
+    }
+  }
+
+  bool holds(const Expression& value, int depth = 0) const {
+    if (depth > 8) return false;
+    if (const auto constant = constantOf(value)) return isWhole(*constant);
+    if (const auto number = variableNumber(value)) {
+      constexpr std::uint32_t kDate = 3011, kTime = 3012;
+      if (*number == kDate || *number == kTime) return true;
+      const auto found = set_.find(*number);
+      return found != set_.end() &&
+             std::all_of(found->second.begin(), found->second.end(),
+                         [&](const Expression* one) { return holds(*one, depth + 1); });
+    }
+    if (const auto* call = std::get_if<nc::FunctionCall>(&value.node)) return isRounding(call->name);
+    if (const auto* negated = std::get_if<nc::Negated>(&value.node))
+      return holds(*negated->operand, depth + 1);
+    const auto* operation = std::get_if<nc::Operation>(&value.node);
+    return operation != nullptr && operation->op != "/" && holds(*operation->left, depth + 1) &&
+           holds(*operation->right, depth + 1);
+  }
+  // A whole value by a whole number: where it comes out whole it does so exactly.
+  bool divides(const Expression& value) const {
+    const auto* operation = std::get_if<nc::Operation>(&value.node);
+    return operation != nullptr && operation->op == "/" && holds(*operation->left) &&
+           holds(*operation->right);
+  }
+
+private:
+  std::map<std::uint32_t, std::vector<const Expression*>> set_;
+};
 
 bool isInexact(const Expression& side) {
   return !constantOf(side) && isApproximate(side, true);
@@ -253,10 +297,11 @@ void functionWithoutBrackets(const CheckedProgram& input, Report& report) {
 
 void fixOfComputed(const CheckedProgram& input, Report& report) {
   Diagnostic* first = nullptr; // one a program: whoever knows it of one FIX knows it of all
+  const Wholes wholes(input.program);
   eachPart<nc::FunctionCall>(input, [&](const nc::FunctionCall& call, SourceRange range) {
     if (call.name != "FIX") return;
     const Expression& argument = *call.arguments.front();
-    if (!isApproximate(argument, true) || isHalved(argument)) return;
+    if (!isApproximate(argument, true) || isHalved(argument) || wholes.divides(argument)) return;
     if (first != nullptr)
       first->note(range, "and here");
     else

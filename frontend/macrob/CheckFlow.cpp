@@ -4,6 +4,7 @@
 #include "frontend/macrob/Walk.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <fmt/format.h>
 #include <functional>
@@ -479,14 +480,35 @@ void jumpIntoLoop(const CheckedProgram& input, Report& report) {
                  "the loop", report);
 }
 
+namespace {
+
+// The comment beside the jump says that it is meant: what is jumped over is switched off by it.
+bool isSwitch(const CheckedProgram& input, SourceRange jump) {
+  for (const Block& block : input.program.blocks) {
+    if (jump.begin < block.range.begin || jump.begin >= block.range.end) continue;
+    return std::any_of(block.comments.begin(), block.comments.end(), [](const Comment& comment) {
+      std::string text = comment.text;
+      std::transform(text.begin(), text.end(), text.begin(),
+                     [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+      return text.find("DELETE") != std::string::npos || text.find("REMOVE") != std::string::npos ||
+             text.find("ENABLE") != std::string::npos || text.starts_with("IF[");
+    });
+  }
+  return false;
+}
+
+} // namespace
+
 void blockNeverRuns(const CheckedProgram& input, Report& report) {
-  for (const FlowFindings::Dead& one : input.flow.dead)
+  for (const FlowFindings::Dead& one : input.flow.dead) {
+    if (isSwitch(input, one.jump)) continue;
     report
         .at(one.range,
             "no path leads here: the program never runs this block, {}; take the jump before it out, or the "
             "blocks",
             one.extent)
         .note(one.jump, "the jump before it");
+  }
 }
 
 } // namespace dotek::frontend::macrob

@@ -168,7 +168,12 @@ void systemVariableUnknown(const CheckedProgram& input, Report& report) {
       return stdlib::isReadAlone(control, number);
     };
     const auto unknown = [&](const stdlib::Control& control) {
-      return !stdlib::namesVariable(control, number);
+      // Common ones of some controls have such numbers, too.
+      const bool common =
+          std::any_of(control.common.begin(), control.common.end(), [&](const stdlib::VariableRange& range) {
+            return number >= range.first && number <= range.last;
+          });
+      return !common && !stdlib::namesVariable(control, number);
     };
     if (input.onEach(unknown)) return true;
     const bool one = written && !input.onEach(readAlone) && input.onEach([&](const auto& control) {

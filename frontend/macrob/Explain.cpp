@@ -131,6 +131,10 @@ private:
       return makeDiagnostic<diag::NcAndMacroStatement>(here());
     if (words && isStatementWord(type(at_))) return makeDiagnostic<diag::NcAndMacroStatement>(here());
     const bool word = type(at_) == Lexer::ADDRESS || type(at_) == Lexer::ADDRESS_N;
+    if (type(begin) == Lexer::HASH && type(at_) == Lexer::KW_GOTO && has(Lexer::EQUALS))
+      return syntax(here(),
+                    "a block takes one statement of a macro; the control stops with an alarm; write `GOTO` "
+                    "into a block of its own");
     if (!words && word && type(begin) != Lexer::KW_IF && beginsValue(at_ + 1))
       return makeDiagnostic<diag::NcAndMacroStatement>(here());
     return std::nullopt;

@@ -2,6 +2,7 @@
 #include "support/messages/MacroB.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <fmt/format.h>
 
@@ -11,14 +12,22 @@ using Lexer = grammar::MacroBLexer;
 
 namespace {
 
+// Functions whose first two letters name no other.
+constexpr std::array<std::string_view, 10> kShortened = {"SIN", "COS",   "TAN", "ATAN", "SQRT",
+                                                         "ABS", "ROUND", "FIX", "FUP",  "ACOS"};
+
 class Repairer {
 public:
-  Repairer(std::vector<Tok>& tokens, FileId file, std::string_view source)
-      : tokens_(tokens), file_(file), source_(source) {}
+  Repairer(std::vector<Tok>& tokens, FileId file, std::string_view source, Forms forms)
+      : tokens_(tokens), file_(file), source_(source), forms_(forms) {}
 
   Misprints run() {
+    if (forms_.nestedComments) // of `(A (B))` the first bracket has closed the comment
+      while (!tokens_.empty() && tokens_.back().type == Lexer::ANY && tokens_.back().text == ")")
+        tokens_.pop_back();
     if (isText()) return {};
     spelling();
+    shortWords();
     splitJoined();
     for (std::size_t i = 0; i < tokens_.size(); ++i) {
       degree(i);
@@ -91,7 +100,9 @@ private:
       if (tok.type == Lexer::NUMBER && written.find_first_of(" \t") != std::string::npos)
         out_.remarks.push_back(makeDiagnostic<diag::BlankInNumber>(rangeOf(tok), tok.text));
       const auto isSmall = [](unsigned char c) { return std::islower(c) != 0; };
-      if (tok.type == Lexer::PRINT_TEXT || std::none_of(written.begin(), written.end(), isSmall)) continue;
+      if (forms_.smallLetters || tok.type == Lexer::PRINT_TEXT ||
+          std::none_of(written.begin(), written.end(), isSmall))
+        continue;
       SourceRange range = rangeOf(tok);
       std::string capitals = tok.text;
       while (i + 1 < tokens_.size() && adjacent(i)) {
@@ -224,6 +235,47 @@ private:
     erase(i, 2);
   }
 
+  // ---- short words
+
+  // The first token of the statement.
+  std::size_t body() const {
+    std::size_t i = 0;
+    if (type(i) == Lexer::SLASH) i += type(i + 1) == Lexer::NUMBER ? 2 : 1;
+    if (type(i) == Lexer::ADDRESS_N && type(i + 1) == Lexer::NUMBER) i += 2;
+    return i;
+  }
+  // `WH[..]DO1`, `EN1`, `SQ[..]` in a calculation: the editor of a Fanuc writes the words out as they are
+  // typed; some controls read them in a file, too.
+  void shortWords() {
+    const std::size_t first = body();
+    for (std::size_t i = first; i + 2 < tokens_.size(); ++i) {
+      if (!isAddress(type(i)) || !isAddress(type(i + 1)) || !adjacent(i)) continue;
+      const std::string letters = tokens_[i].text + tokens_[i + 1].text;
+      const bool before = type(i + 2) == Lexer::LBRACKET;
+      Tok whole{0, tokens_[i].begin, tokens_[i + 1].end, ""};
+      if (letters == "WH" && i == first && before) {
+        whole.type = Lexer::KW_WHILE;
+        whole.text = "WHILE";
+      } else if (letters == "EN" && i == first && type(i + 2) == Lexer::NUMBER && i + 3 == tokens_.size()) {
+        whole.type = Lexer::KW_END;
+        whole.text = "END";
+      } else if (before && i > first && (expectsValue(type(i - 1)) || type(i - 1) == Lexer::EQUALS)) {
+        for (const std::string_view name : kShortened)
+          if (name.starts_with(letters)) whole.text = name;
+        if (whole.text.empty()) continue;
+        whole.type = Lexer::FUNCTION;
+      } else {
+        continue;
+      }
+      if (!forms_.shortWords)
+        report<diag::ShortWord>(
+            SourceRange{file_, whole.begin, whole.end}, fmt::format("write `{}`", whole.text),
+            {{SourceRange{file_, whole.begin, whole.end}, whole.text}}, letters, whole.text);
+      tokens_[i] = std::move(whole);
+      erase(i + 1);
+    }
+  }
+
   // ---- brackets
 
   // The bracket that closes the one at `open`; tokens_.size(): none.
@@ -283,6 +335,13 @@ private:
     for (std::size_t i = 0; i + 1 < tokens_.size(); ++i) {
       if (type(i) != Lexer::KW_IF || type(i + 1) != Lexer::LBRACKET) continue;
       const std::size_t close = matching(i + 1);
+      if (forms_.thenOptional && close + 1 < tokens_.size() &&
+          (type(close + 1) == Lexer::HASH || type(close + 1) == Lexer::ADDRESS)) {
+        const std::uint32_t place = tokens_[close + 1].begin;
+        tokens_.insert(tokens_.begin() + static_cast<std::ptrdiff_t>(close + 1),
+                       Tok{Lexer::KW_THEN, place, place, "THEN"});
+        return;
+      }
       if (close >= tokens_.size() || type(close + 1) != Lexer::HASH) return;
       const auto equals = std::any_of(tokens_.begin() + static_cast<std::ptrdiff_t>(close), tokens_.end(),
                                       [](const Tok& tok) { return tok.type == Lexer::EQUALS; });
@@ -342,13 +401,14 @@ private:
   std::vector<Tok>& tokens_;
   FileId file_;
   std::string_view source_;
+  Forms forms_;
   Misprints out_;
 };
 
 } // namespace
 
-Misprints repairMisprints(std::vector<Tok>& tokens, FileId file, std::string_view source) {
-  return Repairer(tokens, file, source).run();
+Misprints repairMisprints(std::vector<Tok>& tokens, FileId file, std::string_view source, Forms forms) {
+  return Repairer(tokens, file, source, forms).run();
 }
 
 } // namespace dotek::frontend::macrob

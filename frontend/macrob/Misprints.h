@@ -2,6 +2,7 @@
 // repair where there is one only. Included by builder sources only.
 #pragma once
 
+#include "frontend/macrob/Forms.h"
 #include "frontend/macrob/Tokens.h"
 #include "support/Diagnostics.h"
 
@@ -18,7 +19,7 @@ struct Misprints {
 };
 
 // Repairs `tokens` (without the end of the block).
-Misprints repairMisprints(std::vector<Tok>& tokens, FileId file, std::string_view source);
+Misprints repairMisprints(std::vector<Tok>& tokens, FileId file, std::string_view source, Forms forms);
 
 // The one error of a block that the grammar does not take; `at` is the token that does not fit, tokens.size()
 // for the end of the block.

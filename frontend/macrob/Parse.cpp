@@ -67,11 +67,11 @@ std::vector<std::unique_ptr<antlr4::Token>> onlyEnd() {
 class GrammarReader {
 public:
   GrammarReader(FileId file, const SourceMap& sources, const Limits& limits, Diagnostics& diagnostics,
-                Lines& lines, Text text)
-      : text_(text), file_(file), source_(sources.file(file).bytes()), diagnostics_(diagnostics),
-        lines_(lines), language_(language()), bytes_(lines.bytes), lexer_(&bytes_, lines.bytes),
-        buffer_(lexer_, file, sources, language_, limits, problems_), emptySource_(onlyEnd()),
-        emptyStream_(&emptySource_), parser_(&emptyStream_),
+                Lines& lines, Text text, Forms forms)
+      : text_(text), forms_(forms), file_(file), source_(sources.file(file).bytes()),
+        diagnostics_(diagnostics), lines_(lines), language_(language()), bytes_(lines.bytes),
+        lexer_(&bytes_, lines.bytes), buffer_(lexer_, file, sources, language_, limits, problems_),
+        emptySource_(onlyEnd()), emptyStream_(&emptySource_), parser_(&emptyStream_),
         session_(parser_, file, language_, limits, ignored_) {
     language_.explain = [this](std::size_t, const antlr4::Token& offending, const antlr4::Parser&) {
       offending_ = offending.getTokenIndex();
@@ -135,7 +135,7 @@ private:
         return used->contains(n);
       });
     }
-    Misprints out = repairMisprints(tokens, file_, source_);
+    Misprints out = repairMisprints(tokens, file_, source_, forms_);
     out.found.insert(out.found.end(), std::make_move_iterator(found.begin()),
                      std::make_move_iterator(found.end()));
     const auto before = [](const Diagnostic& a, const Diagnostic& b) {
@@ -216,7 +216,7 @@ private:
       if (one.code == diag::NestingTooDeep::code) return one;
     if (unit.failed || unit.tree == nullptr)
       return explainBlock(tokens, std::min(offending_, tokens.size()), file_, source_, end);
-    Builder builder(file_);
+    Builder builder(file_, forms_);
     block = builder.block(*static_cast<Parser::BlockContext*>(unit.tree));
     return builder.error();
   }
@@ -249,6 +249,7 @@ private:
   }
 
   Text text_;
+  Forms forms_;
   FileId file_;
   std::string_view source_;
   Diagnostics& diagnostics_;
@@ -350,7 +351,7 @@ void repairListing(FileId file, std::size_t from, Diagnostics& diagnostics) {
 } // namespace
 
 File parse(FileId file, const SourceMap& sources, const Limits& limits, Diagnostics& diagnostics, Text text,
-           Reader reader) {
+           Reader reader, Forms forms) {
   const std::size_t reported = diagnostics.all().size();
   Lines lines = splitLines(file, sources, limits, diagnostics, text);
   File out;
@@ -377,7 +378,7 @@ File parse(FileId file, const SourceMap& sources, const Limits& limits, Diagnost
     std::fill(lines.bytes.begin() + line.range.begin, lines.bytes.begin() + line.end, ' ');
   }
   if (!all) {
-    GrammarReader grammar(file, sources, limits, diagnostics, lines, text);
+    GrammarReader grammar(file, sources, limits, diagnostics, lines, text, forms);
     for (std::size_t i = 0; i < blocks.size(); ++i)
       if (!blocks[i]) blocks[i] = grammar.read(i);
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "frontend/macrob/Ast.h"
+#include "frontend/macrob/Forms.h"
 #include "support/Diagnostics.h"
 #include "support/Limits.h"
 
@@ -20,8 +21,9 @@ enum class Text : std::uint8_t { Program, Listing };
 // Parses one file of the map. Never fails: problems go to `diagnostics`, at most one error a block; blocks
 // that cannot be read become `Unread`. A misprint with one certain repair is reported with it, and the tree
 // is that of the repaired block. An error of a block that a listing would be read without has a note.
+// `forms`: of the control, where one is named.
 File parse(FileId file, const SourceMap& sources, const Limits& limits, Diagnostics& diagnostics,
-           Text text = Text::Program, Reader reader = Reader::Fast);
+           Text text = Text::Program, Reader reader = Reader::Fast, Forms forms = {});
 
 // `dump --stage tokens`: one token a line: line:column, kind, text.
 std::string dumpTokens(FileId file, const SourceMap& sources, const Limits& limits, Diagnostics& diagnostics,

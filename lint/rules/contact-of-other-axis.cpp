@@ -55,6 +55,21 @@ AxisSet touchedIn(const std::vector<ir::ProgramStatement>& body, std::size_t loo
   return out;
 }
 
+// One of several stores in a row that keep the whole position, the axis that touched included: the other
+// axes are where they stand.
+bool keepsWholePosition(const NcProgram& nc, std::size_t at, std::uint32_t kept, std::uint32_t read,
+                        AxisSet moved) {
+  const auto& body = nc.program.body;
+  for (std::size_t i = at > 2 ? at - 2 : 0; i < body.size() && i <= at + 2; ++i) {
+    const auto* store = std::get_if<ir::Store>(&body[i].node);
+    const auto other = store == nullptr ? std::nullopt : storedNumber(body[i]);
+    const auto contact = store == nullptr ? std::nullopt : variableNumber(*store->value);
+    const auto axis = contact ? contactAxis(*contact) : std::nullopt;
+    if (axis && (*axis & moved) != 0 && other && *other - kept == *contact - read) return true;
+  }
+  return false;
+}
+
 void check(const NcProgram& nc, Report& report) {
   const ir::Program& program = nc.program;
   const auto& body = program.body;
@@ -89,6 +104,7 @@ void check(const NcProgram& nc, Report& report) {
         if (!reads) reads.emplace(body);
         if (reads->onlyAlongAngle(*kept)) continue;
       }
+      if (!none && kept && keepsWholePosition(nc, i, *kept, number, *moved[i])) continue;
       told = true;
       const SourceRange place = range.hasPlace() ? range : body[i].origin.range();
       if (none)

@@ -83,7 +83,9 @@ void check(const NcProgram& nc, Report& report) {
       ++same;
     } else {
       ++apart;
-      if (wrong == nullptr && std::fmod(std::abs(*number - tool), 10) != 0) {
+      // A second set lies tens above the first one.
+      const bool second = std::fmod(std::abs(*number - tool), 10) == 0 && (*number > tool || tool > 99);
+      if (wrong == nullptr && !second) {
         wrong = h;
         wrongTool = tool;
       }

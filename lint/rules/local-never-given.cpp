@@ -3,6 +3,9 @@
 #include "lint/OwnCalls.h"
 #include "stdlib/MacroSet.h"
 
+#include <map>
+#include <set>
+
 namespace dotek::lint::rule {
 namespace {
 
@@ -21,6 +24,33 @@ bool maySetLocal(const ir::ProgramStatement& statement) {
   if (store == nullptr || storedNumber(statement)) return false;
   const auto first = store->number ? ir::firstNumber(store->number) : std::nullopt;
   return !first || *first <= kLastLocal;
+}
+
+// Letters that no call gives, two or more, and that the program does nothing with but add: shifts that may be
+// left out, as I and J beside X and Y. One alone may be a misprint.
+std::set<std::uint32_t> optionalShifts(const NcProgram& nc, const std::set<std::uint32_t>& given) {
+  std::map<std::uint32_t, int> read;
+  for (const VariableRead& one : nc.reads())
+    if (one.number > 0 && one.number <= kLastLocal && !given.contains(one.number) &&
+        stdlib::letterOfLocal(one.number) != 0)
+      ++read[one.number];
+  for (const ir::ProgramStatement& statement : nc.program.body)
+    ir::eachNode(statement, [&](const ir::Expression& node) {
+      const auto* sum = std::get_if<ir::Binary>(&node.node);
+      if (sum == nullptr || (sum->op != ir::BinaryOp::Add && sum->op != ir::BinaryOp::Subtract)) return;
+      for (const ir::ExpressionPtr& side : {sum->left, sum->right}) {
+        const auto* asZero = std::get_if<ir::Unary>(&side->node);
+        const bool plain = asZero == nullptr || asZero->op == ir::UnaryOp::NullAsZero;
+        const auto number =
+            plain ? variableNumber(asZero != nullptr ? *asZero->operand : *side) : std::nullopt;
+        if (const auto at = number ? read.find(*number) : read.end(); at != read.end()) --at->second;
+      }
+    });
+  std::set<std::uint32_t> out;
+  for (const auto& [number, left] : read)
+    if (left == 0) out.insert(number);
+  if (out.size() < 2) out.clear();
+  return out;
 }
 
 // `calls`: the locals that some call of the program sets; nullptr: nothing calls it.
@@ -53,6 +83,7 @@ void checkProgram(const NcProgram& nc, const std::set<std::uint32_t>* calls, Rep
                 *number);
   }
   if (calls == nullptr) return;
+  const std::set<std::uint32_t> optional = optionalShifts(nc, given);
   for (std::size_t i = 0; i < program.body.size(); ++i) {
     const ir::ProgramStatement& statement = program.body[i];
     const auto* branch = std::get_if<ir::Branch>(&statement.node);
@@ -62,7 +93,7 @@ void checkProgram(const NcProgram& nc, const std::set<std::uint32_t>* calls, Rep
             branch == nullptr ? nullptr : std::get_if<ir::Comparison>(&branch->condition->node))
       if (isPlain(*flag->left) && isPlain(*flag->right)) continue;
     for (const auto& [number, range] : nc.reads(i)) {
-      if (number == 0 || number > kLastLocal || given.contains(number)) continue;
+      if (number == 0 || number > kLastLocal || given.contains(number) || optional.contains(number)) continue;
       // A test beside it shows that leaving it out is meant.
       if (asked.contains(number) || (branch == nullptr && tested.contains(number))) continue;
       if (!told.insert(number).second) continue;

@@ -7,6 +7,8 @@ namespace {
 void check(const NcProgram& nc, Report& report) {
   const ir::Program& program = nc.program;
   const auto& modes = nc.modes();
+  const stdlib::Control* const control = nc.project.control;
+  if (control != nullptr && control->functions.contains("incremental_machine_moves")) return;
   for (std::size_t i = 0; i < program.body.size(); ++i) {
     const ir::ProgramStatement& statement = program.body[i];
     const auto* block = std::get_if<ir::NcBlock>(&statement.node);

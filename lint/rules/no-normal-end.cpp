@@ -39,6 +39,27 @@ bool mayReturnElsewhere(const ir::ProgramStatement& statement, const Project& pr
   return elsewhere || !found;
 }
 
+// A call of a program that ends the run and never comes back, as each one of that number in the files does.
+bool endsRun(const ir::ProgramStatement& statement, const Project& project) {
+  if (callOf(statement) == nullptr) return false;
+  const auto called = calledProgram(statement);
+  bool found = false, returns = false;
+  if (called)
+    eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
+      if (program.number != *called) return;
+      const std::vector<bool> reached = ir::reachable(program.body, ir::flowOf(program.body));
+      bool ends = false;
+      for (std::size_t i = 0; i < program.body.size(); ++i) {
+        if (!reached[i]) continue;
+        ends = ends || endsProgram(program.body[i]);
+        returns = returns || std::holds_alternative<ir::Exit>(program.body[i].node);
+      }
+      found = found || ends;
+      returns = returns || !ends;
+    });
+  return found && !returns;
+}
+
 // The text ends with it.
 bool isLast(const NcProgram& nc) {
   const auto& programs = nc.file.programs;
@@ -72,6 +93,12 @@ void check(const NcProgram& nc, Report& report) {
       if (reached[i] && mayReturnElsewhere(body[i], nc.project)) return true;
     return false;
   };
+  const auto callsEnd = [&] {
+    for (std::size_t i = 0; i < body.size(); ++i)
+      if (reached[i] && endsRun(body[i], nc.project)) return true;
+    return false;
+  };
+  if (past != nullptr && endsRun(*past, nc.project)) return;
   if (past != nullptr && (ends || alarms || nc.file.markLast))
     report.at(
         past->origin.range(),
@@ -91,7 +118,7 @@ void check(const NcProgram& nc, Report& report) {
               "O{} is called in this file and goes on past its last block; the control does not come back to "
               "the caller, or stops with an alarm; end it with M99",
               nc.program.number);
-  else if (!ends && alarms && !(otherEnd && mayComeElsewhere()))
+  else if (!ends && alarms && !(otherEnd && mayComeElsewhere()) && !callsEnd())
     report.at(
         program.range,
         "each path through the program ends in an alarm, none in M30 or M99; the end before the alarms is "

@@ -66,6 +66,12 @@ void checkProgram(const NcProgram& nc, const std::map<std::uint32_t, Own>& own, 
     if (!states[i] || *states[i] == 0) continue;
     const auto called = calledProgram(body[i]);
     const auto found = called ? own.find(*called) : own.end();
+    // A tool that turns backwards against the second input is measured itself.
+    const ir::NcBlock* skip = skipOf(body[i]);
+    const auto* turning = std::get_if<ir::NcBlock>(&body[*states[i] - 1].node);
+    if (skip != nullptr && wordValue(*skip, 'P').value_or(1) >= 2 && turning != nullptr &&
+        hasCode(*turning, 'M', 4))
+      continue;
     const bool calls = found != own.end() && found->second.skips && !found->second.statesSpindle &&
                        !found->second.measuresTool;
     if ((!calls && (skipOf(body[i]) == nullptr || measuresTool)) || !told.insert(*states[i]).second) continue;

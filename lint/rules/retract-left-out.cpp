@@ -3,6 +3,8 @@
 #include "lint/NcProgram.h"
 #include "lint/Skips.h"
 
+#include <algorithm>
+
 namespace dotek::lint::rule {
 namespace {
 
@@ -43,6 +45,18 @@ template <ir::AnyStatement Statement> bool goesToMeasured(const Statement& state
   return found;
 }
 
+// A measurement with Z, of a face from above or of a boss: it comes back to where it began, above what it
+// touched.
+template <ir::AnyStatement Statement> bool endsAbove(const Statement& statement) {
+  if constexpr (std::same_as<Statement, ir::ProgramStatement>) {
+    const auto* call = std::get_if<ir::Call>(&statement.node);
+    return call != nullptr && std::any_of(call->arguments.begin(), call->arguments.end(),
+                                          [](const ir::CallArgument& one) { return one.letter == 'Z'; });
+  } else {
+    return false;
+  }
+}
+
 struct Travel {
   std::size_t at = 0;
   bool lifted = false;
@@ -70,7 +84,7 @@ std::vector<Travel> travels(const std::vector<Statement>& body, const Probing& p
     const ProbeStep step = probing.step(body[i]);
     if (step.kind == ProbeStep::Kind::Measure ||
         (step.kind == ProbeStep::Kind::OwnCall && probing.skips(step.program))) {
-      measured = true;
+      measured = !endsAbove(body[i]);
       lifted = step.kind == ProbeStep::Kind::OwnCall && probing.liftsAfter(step.program);
       continue;
     }

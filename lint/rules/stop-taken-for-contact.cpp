@@ -14,14 +14,30 @@ std::optional<AxisSet> stopAxis(std::uint32_t number) {
   return std::nullopt;
 }
 
+// What is stored here is held against a contact later: a bound of it, no measure.
+bool isBound(const NcProgram& nc, const ir::ProgramStatement& statement) {
+  const auto kept = storedNumber(statement);
+  if (!kept) return false;
+  for (std::size_t i = 0; i < nc.program.body.size(); ++i) {
+    bool reads = false, contact = false;
+    for (const VariableRead& read : nc.reads(i)) {
+      reads = reads || read.number == *kept;
+      contact = contact || contactAxis(read.number).has_value();
+    }
+    if (reads && contact) return true;
+  }
+  return false;
+}
+
 void check(const NcProgram& nc, Report& report) {
   const auto& body = nc.program.body;
   for (const std::size_t i : nc.skips()) {
     const ir::NcBlock* skip = skipOf(body[i]);
+    if (hasCode(*skip, 'M', 78)) continue; // of a Haas: an alarm where anything is met, so it arrives
     const ir::ProgramStatement* taken = nullptr;
     std::uint32_t number = 0;
     SourceRange at;
-    bool asksContact = false;
+    bool asksContact = false, keepsPlace = false;
     for (std::size_t k = i + 1; k < body.size(); ++k) {
       const auto* block = std::get_if<ir::NcBlock>(&body[k].node);
       if ((block != nullptr && axesOf(*block) != 0) || callOf(body[k]) != nullptr) break;
@@ -29,10 +45,10 @@ void check(const NcProgram& nc, Report& report) {
       for (const VariableRead& read : nc.reads(k))
         asksContact = asksContact || contactAxis(read.number).has_value();
       const auto* store = std::get_if<ir::Store>(&body[k].node);
-      // A copy by itself is a place to go back to.
-      if (store == nullptr || taken != nullptr ||
-          std::holds_alternative<ir::MachineVariable>(store->value->node))
-        continue;
+      if (store == nullptr) continue;
+      // A copy by itself is a place to go back to, and so is what is kept of the other axes beside it.
+      if (const auto copied = variableNumber(*store->value)) keepsPlace = keepsPlace || stopAxis(*copied);
+      if (taken != nullptr || std::holds_alternative<ir::MachineVariable>(store->value->node)) continue;
       ir::eachNode(store->value, [&](const ir::Expression& node) {
         const auto read = variableNumber(node);
         const auto axis = read ? stopAxis(*read) : std::nullopt;
@@ -42,7 +58,7 @@ void check(const NcProgram& nc, Report& report) {
         at = node.range;
       });
     }
-    if (taken == nullptr || asksContact) continue;
+    if (taken == nullptr || asksContact || keepsPlace || isBound(nc, *taken)) continue;
     report
         .at(at.hasPlace() ? at : taken->origin.range(),
             "#{} is where the axis has come to rest after this G31, past the contact by what it needs to "

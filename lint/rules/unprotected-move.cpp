@@ -1,6 +1,7 @@
 #include "lint/NcProgram.h"
 #include "lint/Probing.h"
 
+#include <algorithm>
 #include <optional>
 #include <set>
 
@@ -121,13 +122,28 @@ const ir::NcBlock* blockOf(const ir::ProgramStatement& statement) {
   return std::get_if<ir::NcBlock>(&statement.node);
 }
 
+// A measurement with Z, of a face from above or of a boss: it comes back to where it began, above what it
+// touched.
+template <ir::AnyStatement Statement> bool endsAbove(const Statement& statement) {
+  if constexpr (std::same_as<Statement, ir::ProgramStatement>) {
+    const auto* call = std::get_if<ir::Call>(&statement.node);
+    return call != nullptr && std::any_of(call->arguments.begin(), call->arguments.end(),
+                                          [](const ir::CallArgument& one) { return one.letter == 'Z'; });
+  } else {
+    return false;
+  }
+}
+
 template <ir::AnyStatement Statement>
 void checkBody(const std::vector<Statement>& body, const Probing& probing, Report& report) {
   const auto states = ir::factsBefore<State>(
       body, State{},
       [&](std::size_t at, std::size_t, State state) {
         const ProbeStep::Kind kind = probing.step(body[at]).kind;
-        if (kind == ProbeStep::Kind::Measure) state.down = state.measured = true;
+        if (kind == ProbeStep::Kind::Measure) {
+          state.measured = true;
+          state.down = !endsAbove(body[at]);
+        }
         if (kind == ProbeStep::Kind::Protected)
           if (const auto z = protectedZ(body[at])) moveAlongZ(state, *z);
         if (kind == ProbeStep::Kind::Off || kind == ProbeStep::Kind::Call || kind == ProbeStep::Kind::OwnCall)

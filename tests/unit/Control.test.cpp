@@ -375,5 +375,6 @@ TEST_CASE("Haas NGC: what it has otherwise than the Fanuc that it extends") {
   CHECK(haas.callCodes.empty());
   CHECK(haas.isCommon(10200));
   CHECK_FALSE(haas.isCommon(10150)); // another name of #150
-  CHECK_FALSE(haas.isCommon(700));
+  CHECK(haas.isCommon(700));         // macros made for it write #701
+  CHECK_FALSE(haas.isCommon(750));
 }
