@@ -26,7 +26,8 @@ constexpr CommandHelp kCommands[] = {
      "dotek convert examples/surface-x --prog examples/post.txt --to fusion --whole-post -o shop.cps\n"
      "dotek run-post shop.cps --matrix drilling\n"
      "dotek new post --from examples/s280-post.toml -o s280.cps\n"
-     "dotek run-post s280.cps examples/s280-job.toml --check --control mikroprog-s280 --property stopCondition=O20",
+     "dotek run-post s280.cps examples/s280-job.toml --check --control mikroprog-s280 \\\n"
+     "          --property stopCondition=O20",
      "run-post"},
     {"convert",
      "dotek convert examples/surface-x --prog examples/post.txt --to fanuc --verify -o O8000.nc\n"
