@@ -48,7 +48,8 @@ void check(const Project& project, Report& report) {
         flag.value = *value;
         flag.first = statement.origin.range();
       } else if (*value != *flag.value && !flag.raised.hasPlace() && i > 0 &&
-                 std::holds_alternative<ir::Branch>(program.body[i - 1].node)) { // IF[..]THEN
+                 std::holds_alternative<ir::Branch>(program.body[i - 1].node) &&
+                 program.body[i - 1].origin.range().begin == statement.origin.range().begin) { // IF[..]THEN
         flag.raised = statement.origin.range();
       }
     }

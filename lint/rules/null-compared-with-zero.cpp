@@ -54,6 +54,15 @@ bool endsInAlarm(const macrob::Program& program, std::size_t at, std::uint32_t v
     } else if (const auto* set = std::get_if<nc::Assignment>(&body)) {
       const auto* target = std::get_if<nc::Number>(&set->variable->node);
       return target != nullptr && target->value == 3000;
+    } else if (const auto* words = std::get_if<macrob::Words>(&body)) {
+      // The coolant goes off, a dwell, a retract; no end, and no call.
+      for (const nc::Word& word : words->words) {
+        const auto* number = word.value == nullptr ? nullptr : std::get_if<nc::Number>(&word.value->node);
+        if ((word.address == 'M' && (number == nullptr || number->value >= 30 || number->value == 2)) ||
+            (word.address == 'G' && (number == nullptr || number->value >= 65)))
+          return false;
+      }
+      ++at;
     } else if (std::holds_alternative<std::monostate>(body)) {
       ++at;
     } else {
