@@ -272,7 +272,7 @@ private:
       say("SET BEFORE THE FIRST CALL: " + state_.macros.needs);
     if (const auto ball = state_.findHost("tool_radius");
         ball && state_.isArgument(*ball) && callsMacros(state_.cycle))
-      say("TOOL_RADIUS IS THE CALIBRATED RADIUS THAT THE MACROS MEASURE WITH" +
+      say("TOOL_RADIUS: THE CALIBRATED RADIUS THAT THE MACROS MEASURE WITH" +
           (state_.macros.probing.radiusX ? fmt::format(", IN #{}", *state_.macros.probing.radiusX) : ""));
     if (const std::string read = readFromOutside(); !read.empty())
       say("READ HERE AND SET ELSEWHERE: " + read);

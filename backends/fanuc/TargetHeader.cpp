@@ -160,7 +160,7 @@ std::vector<std::string> demandsIn(std::string_view program) {
     if (list != kLists.end())
       texts.push_back(oneSpace(line.substr(list->size())));
     else if (goesOn && line.find(':') == std::string_view::npos && !line.starts_with("ALARM ") &&
-             !line.starts_with("RESULT "))
+             !line.starts_with("RESULT ") && !line.starts_with("MEASURES FROM "))
       texts.back() += " " + oneSpace(line);
     else {
       goesOn = false;

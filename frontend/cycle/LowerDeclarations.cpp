@@ -167,7 +167,7 @@ void Lowering::clauses(const Parameter& parameter) {
       place(fine, clause.range);
       if (absent) place(*absent, clause.range);
       const auto* use = std::get_if<ir::VariableUse>(&meaning.value->node);
-      if (use == nullptr || scope_.inlined) continue;
+      if (use == nullptr || !isParameter(use->variable)) continue;
       const Sign least = signOf(low), most = signOf(high);
       if (!least.above && !most.below) continue;
       Sign& known = signs_[use->variable];
@@ -207,7 +207,7 @@ void Lowering::demand(const Expression& condition, const std::string& message, S
   }
   emit(ir::Alarm{message}, range);
   place(fine, range);
-  if (!scope_.inlined) bound(condition);
+  bound(condition);
 }
 
 // Of a check that a called cycle makes again: the cycle itself has made it, of what does not change. One of
@@ -229,6 +229,12 @@ bool Lowering::isDemanded(const ir::CycleStatement& check) {
   return false;
 }
 
+// Of the cycle itself, or of one that is called: its own copy of what the call gives. What is the caller's is
+// known only after the call.
+bool Lowering::isParameter(ir::VariableId id) const {
+  return cycle_.variable(id).role == (scope_.inlined ? ir::Role::Local : ir::Role::Parameter);
+}
+
 // What the check says of the sign of parameters.
 void Lowering::bound(const Expression& condition) {
   const Expression& whole = within(condition);
@@ -245,7 +251,7 @@ void Lowering::bound(const Expression& condition) {
                           ? nullptr
                           : std::get_if<ir::VariableUse>(&meaning->value->node);
     const std::size_t before = out_->size();
-    const bool parameter = use != nullptr && cycle_.variable(use->variable).role == ir::Role::Parameter;
+    const bool parameter = use != nullptr && isParameter(use->variable);
     const ir::ExpressionPtr other = parameter ? value(*both->right) : nullptr;
     out_->resize(before);
     const double* const zero = other == nullptr ? nullptr : ir::constantValue(other);
@@ -261,7 +267,7 @@ void Lowering::bound(const Expression& condition) {
     if (meaning == nullptr || meaning->value == nullptr) return;
     const auto* use = std::get_if<ir::VariableUse>(&meaning->value->node);
     const std::size_t before = out_->size();
-    if (use == nullptr || cycle_.variable(use->variable).role != ir::Role::Parameter) return;
+    if (use == nullptr || !isParameter(use->variable)) return;
     const Sign sign = signOf(value(other));
     out_->resize(before);
     if (!(above ? sign.above : sign.below)) return;

@@ -113,6 +113,7 @@ private:
   // An alarm unless the condition holds.
   void demand(const Expression& condition, const std::string& message, SourceRange range);
   bool isDemanded(const ir::CycleStatement& check);
+  bool isParameter(ir::VariableId id) const;
   void bound(const Expression& condition);
   static std::string alarmText(const std::string& name);
 
