@@ -235,9 +235,10 @@ void addTranslation(CLI::App& app, Raw& raw, const std::string& to) {
   addSeveral(app, "--result", raw.results,
              "of a file of the cycle language: common variable that gets a result of the cycle",
              "NAME=#NUMBER");
-  app.add_option("--calls", raw.calls,
-                 "of a file of the cycle language: a cycle that it calls is in the place of the call, a program "
-                 "of the same file, or a call of the macro set where that has it")
+  app.add_option(
+         "--calls", raw.calls,
+         "of a file of the cycle language: a cycle that it calls is in the place of the call, a program "
+         "of the same file, or a call of the macro set where that has it")
       ->check(CLI::IsMember({"inline", "subprogram", "vendor"}));
 }
 
