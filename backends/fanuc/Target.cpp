@@ -72,7 +72,7 @@ public:
     if (!ofLanguage && options_.calls != Calls::Inline)
       session_.diagnostics().report<diag::CallsOfLanguage>({}, callsText(options_.calls), folder.name);
     if (!lowered.programs.empty()) ir::fold(lowered.cycle, lowered.fixed); // drops calls that are never made
-    const std::optional<SourceRange> report = targets::dropReports(lowered);
+    const std::optional<SourceRange> report = targets::dropReports(lowered.cycle);
     if (report) session_.diagnostics().report<diag::ReportLeftOut>(*report, inputs.control->title);
     CalledPrograms called(lowered, context_, *macros);
     KeptResults results;

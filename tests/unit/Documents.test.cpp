@@ -49,6 +49,7 @@ constexpr std::pair<std::string_view, std::string_view> kFinds[] = {
     {"run-my-macro.md", "dotek sim examples/macros/bore.nc --call \"D30.\""},
     {"run-my-macro.md", "dotek sim examples/macros/bore.nc --call \"D30. Z-5.\" --part"},
     {"run-my-macro.md", "dotek sim examples/macros/tool-break.nc --call \"T5.\" --tool 5 --length 87.4"},
+    {"fusion-lathe.md", "dotek run-post s280.cps examples/s280-job.toml --check"},
 };
 
 // A repository with a program that has a known finding, a post and cycles, and the branch `main` of its

@@ -174,7 +174,7 @@ TEST_CASE("sim: local shift, G92, G10") {
   CHECK(machineAfter("G10 L20 P48 X8.\nG54.1 P48 G0 X0") == "8 0 0");
   CHECK(after("G10 L2 P7 X1.") == "inconclusive P");
   CHECK(after("G10 L50") == "inconclusive L");
-  CHECK(after("G10 L12 P1 R2.") == "inconclusive L");
+  CHECK(after("G10 L12 P1 R2.") == "0 0 0"); // a radius of memory C
 }
 
 TEST_CASE("sim: G92 S limits the spindle's speed and shifts nothing") {

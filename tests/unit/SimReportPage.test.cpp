@@ -150,7 +150,7 @@ TEST_CASE("sim report: radii of tools that are written are in the table, by vari
   CHECK(has(written("G10 L12 P5 R5.5\n#11005=#13005*2"), "tool 5 geometry set from 0.000 to 11.000"));
   // Under G20 they are inches, as other offsets are.
   CHECK(has(written("G20\n#13005=0.25\nG21"), "tool 5 radius geometry set from 0.000 to 6.350"));
-  run("O7\nG10 L12 P5 R5.5\nM30\n", {"--control", "fanuc-0i-md"});
+  run("O7\nG10 L12 P5 R5.5\nM30\n", {"--control", "haas-ngc"});
   CHECK(has(run.pages(), "names no variables with offsets of a tool&#39;s radius"));
 }
 
