@@ -142,8 +142,8 @@ TEST_CASE("macrob corpus: a repair where it is certain") {
       if (!certain) continue;
       ++fixes;
       REQUIRE(one.fix);
-      // Who reads a text as a listing says that it is not the one that ran; of a program nothing that moves is
-      // changed.
+      // Who reads a text as a listing says that it is not the one that ran; of a program nothing that moves
+      // is changed.
       CHECK(one.fix->applicability == Fix::Applicability::Safe);
     }
   }
