@@ -114,7 +114,7 @@ TEST_CASE("verify to gibbs: a dialog or a branch that was damaged differs") {
     folder.write("out/bore/" + file, text);
   };
   differs("branch.txt", branch, "G65 P9833", "G65 P9832");                    // the probe stays on
-  differs("branch.txt", branch, "]+#157-", "]-#157-");                        // a sign
+  differs("branch.txt", branch, "]+#159-", "]-#159-");                        // a sign
   differs("branch.txt", branch, " SeqC ' G65 P9810 Z#150 F1000.' EOL\n", ""); // a retract
   differs("branch.txt", branch, " SeqC SpinOff EOL\n", "");
   differs("branch.txt", branch, " SeqC ' G53' EOL\n SeqC ' #[5221", " SeqC ' #[5221"); // reads ahead
@@ -122,8 +122,9 @@ TEST_CASE("verify to gibbs: a dialog or a branch that was damaged differs") {
   differs("CycleData.mac", checks, "if diameter >= 2*radius+1 then goto fine", "goto fine");
   differs("CycleData.mac", checks, "No room in the bore", "No bore in the room");
   const char* const drawn = " draws something else than the branch does: ";
-  differs("ToolPath.mac", path, "feed_z, -depth", "feed_z, -depth-1", drawn);
-  differs("ToolPath.mac", path, "feed_x, diameter/2-radius", "feed_x, diameter/4-radius", drawn);
+  differs("ToolPath.mac", path, "feed_z, at_z-depth", "feed_z, at_z-depth-1", drawn);
+  differs("ToolPath.mac", path, "feed_x, at_x_2+diameter/2-radius", "feed_x, at_x_2+diameter/4-radius",
+          drawn);
   differs("ToolPath.mac", path, "add_custom_drill_cycle_path feed_z, 0",
           "add_custom_drill_cycle_path feed_z, 5", drawn);
   differs("DefineData.txt", first, "diameter = 40", "diameter = 41",

@@ -101,8 +101,8 @@ TEST_CASE(
   CHECK_MESSAGE(agrees(verified(wall)), verified(wall));
   wall.to = "fanuc";
   wall.control = "haas-ngc";
-  wall.macros = "dotek@700"; // no variables of a Haas
-  CHECK(coded(wall, "macro-variables-lost").find("#700 to #703") != std::string::npos);
+  wall.macros = "dotek@760"; // no variables of a Haas
+  CHECK(coded(wall, "macro-variables-lost").find("#760 to #763") != std::string::npos);
 }
 
 TEST_CASE("verify: a Haas dwells by P, and another control has no G103") {
