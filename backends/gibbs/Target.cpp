@@ -13,6 +13,7 @@
 #include "support/messages/Fanuc.h"
 #include "targets/Conversion.h"
 #include "targets/KeptResults.h"
+#include "targets/Reports.h"
 #include "targets/Translation.h"
 
 #include <algorithm>
@@ -59,7 +60,8 @@ public:
         diagnostics.report<diag::CycleResultUnknown>({}, name, folder.name, "");
     }
     const std::set<ir::VariableId> without = leaveOut(lowered, diagnostics);
-    dropReports(lowered.cycle, diagnostics);
+    if (const std::optional<SourceRange> report = dropReports(lowered.cycle))
+      diagnostics.report<diag::CamReport>(*report);
     const ir::FoldOptions folding{true, session_.limits().steps};
     ir::fold(lowered.cycle, lowered.fixed, folding);
     dropAbsences(lowered);

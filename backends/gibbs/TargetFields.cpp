@@ -220,22 +220,6 @@ std::set<ir::VariableId> leaveOut(LoweredCycle& lowered, Diagnostics& diagnostic
   return out;
 }
 
-void dropReports(ir::Cycle& cycle, Diagnostics& diagnostics) {
-  std::vector<ir::CycleStatement> body;
-  bool said = false;
-  for (ir::CycleStatement& statement : cycle.body) {
-    const auto* call = std::get_if<ir::CallCycle>(&statement.node);
-    if (call == nullptr || call->cycle != ir::kReport) {
-      body.push_back(std::move(statement));
-      continue;
-    }
-    // The comment before it is its name.
-    if (!body.empty() && std::holds_alternative<ir::Comment>(body.back().node)) body.pop_back();
-    if (!std::exchange(said, true)) diagnostics.report<diag::CamReport>(statement.origin.range());
-  }
-  cycle.body = std::move(body);
-}
-
 void dropAbsences(LoweredCycle& lowered) {
   ir::Cycle& cycle = lowered.cycle;
   const auto assigned = [&](ir::VariableId id) {

@@ -17,9 +17,6 @@ using namespace project; // NOLINT(google-build-using-namespace)
 // Parameters that may be left out and have no default are: a field always holds a number. Warned of.
 std::set<ir::VariableId> leaveOut(LoweredCycle& lowered, Diagnostics& diagnostics);
 
-// Reports are left out, with a warning.
-void dropReports(ir::Cycle& cycle, Diagnostics& diagnostics);
-
 // After folding: a parameter that was left out and that the checks give a value by its rule is not left out
 // first.
 void dropAbsences(LoweredCycle& lowered);
