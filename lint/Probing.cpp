@@ -302,6 +302,16 @@ bool hasCode(const ir::NcBlock& block, char address, double code) {
   });
 }
 
+bool endsAbove(const ir::ProgramStatement& statement) {
+  const auto* call = std::get_if<ir::Call>(&statement.node);
+  return call != nullptr && std::any_of(call->arguments.begin(), call->arguments.end(),
+                                        [](const ir::CallArgument& one) { return one.letter == 'Z'; });
+}
+
+bool endsAbove(const ir::CycleStatement&) {
+  return false;
+}
+
 std::optional<std::uint32_t> variableNumber(const ir::Expression& expression) {
   const auto* variable = std::get_if<ir::MachineVariable>(&expression.node);
   return variable == nullptr ? std::nullopt : writtenNumber(variable->number);

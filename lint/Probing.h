@@ -94,6 +94,10 @@ void eachProgram(const Project& project,
 std::optional<double> wordValue(const ir::NcBlock& block, char address);
 bool hasWord(const ir::NcBlock& block, char address);
 bool hasCode(const ir::NcBlock& block, char address, double code);
+// A measurement with Z, of a face from above or of a boss: it comes back to where it began, above what it
+// touched. Of a cycle, whose moves say it: no.
+bool endsAbove(const ir::ProgramStatement& statement);
+bool endsAbove(const ir::CycleStatement& statement);
 // #n of a variable whose number is written out.
 std::optional<std::uint32_t> variableNumber(const ir::Expression& expression);
 std::optional<std::uint32_t> storedNumber(const ir::ProgramStatement& statement);

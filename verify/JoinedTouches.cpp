@@ -37,10 +37,11 @@ public:
       }
       any = true;
       keepPieces(out, kept, region->begin);
-      Piece piece = source_.pieces[region->begin];
-      piece.kind = sim::PathKind::Measuring;
-      piece.feed.reset();
-      if (region->touches > 0) piece = source_.pieces[pieceOf_[next]];
+      Piece piece = source_.pieces[region->touches > 0 ? pieceOf_[next] : region->begin];
+      if (region->touches == 0) {
+        piece.kind = sim::PathKind::Measuring;
+        piece.feed.reset();
+      }
       piece.from = piece.to = source_.pieces[region->begin].from;
       out.pieces.push_back(piece);
       out.measures.push_back(joined(call, next, *region));
@@ -129,7 +130,7 @@ private:
     if (region.touches < call.nominal.size() && call.contacts.size() == out.contacts.size() + 1)
       out.contacts.push_back(call.contacts.back());
     out.start = source_.pieces[region.begin].from;
-    out.end = region.end == 0 ? out.start : source_.pieces[region.end - 1].to;
+    out.end = source_.pieces[region.end - 1].to;
     return out;
   }
 

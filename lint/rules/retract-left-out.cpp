@@ -45,18 +45,6 @@ template <ir::AnyStatement Statement> bool goesToMeasured(const Statement& state
   return found;
 }
 
-// A measurement with Z, of a face from above or of a boss: it comes back to where it began, above what it
-// touched.
-template <ir::AnyStatement Statement> bool endsAbove(const Statement& statement) {
-  if constexpr (std::same_as<Statement, ir::ProgramStatement>) {
-    const auto* call = std::get_if<ir::Call>(&statement.node);
-    return call != nullptr && std::any_of(call->arguments.begin(), call->arguments.end(),
-                                          [](const ir::CallArgument& one) { return one.letter == 'Z'; });
-  } else {
-    return false;
-  }
-}
-
 struct Travel {
   std::size_t at = 0;
   bool lifted = false;

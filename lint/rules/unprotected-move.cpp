@@ -122,18 +122,6 @@ const ir::NcBlock* blockOf(const ir::ProgramStatement& statement) {
   return std::get_if<ir::NcBlock>(&statement.node);
 }
 
-// A measurement with Z, of a face from above or of a boss: it comes back to where it began, above what it
-// touched.
-template <ir::AnyStatement Statement> bool endsAbove(const Statement& statement) {
-  if constexpr (std::same_as<Statement, ir::ProgramStatement>) {
-    const auto* call = std::get_if<ir::Call>(&statement.node);
-    return call != nullptr && std::any_of(call->arguments.begin(), call->arguments.end(),
-                                          [](const ir::CallArgument& one) { return one.letter == 'Z'; });
-  } else {
-    return false;
-  }
-}
-
 template <ir::AnyStatement Statement>
 void checkBody(const std::vector<Statement>& body, const Probing& probing, Report& report) {
   const auto states = ir::factsBefore<State>(
