@@ -62,8 +62,8 @@ void writeMacro(const fs::path& path, int lines) {
   }
 }
 
-// Programs of the examples over and over, each with a number of its own.
-void writeMacros(const fs::path& path, int lines) {
+// Programs of the examples over and over, each with a number of its own, from `number` on.
+void writeMacros(const fs::path& path, int lines, int number = 1000) {
   std::vector<std::string> programs;
   for (const char* name : {"angle", "bore", "calibrate", "face-z", "tool-break", "web"}) {
     std::ifstream in(fmt::format("examples/macros/{}.nc", name));
@@ -74,7 +74,6 @@ void writeMacros(const fs::path& path, int lines) {
   }
   std::ofstream out(path);
   out << "%\n";
-  int number = 1000;
   for (int written = 2; written < lines; ++number) {
     const std::string& text = programs[static_cast<std::size_t>(number) % programs.size()];
     out << "O" << number << "(COPY)\n" << text;
@@ -186,6 +185,14 @@ std::vector<Case> cases(const std::string& dotek, const std::string& corpus, con
       {"lint, Prog of 4,000 lines", {dotek, "lint", (scratch / "long-post.txt").string()}, {0, 1}, 60, {}});
   out.push_back(
       {"lint, macro of 4,000 lines", {dotek, "lint", (scratch / "long.mac").string()}, {0, 1}, {}, {}});
+  fs::create_directories(scratch / "shop");
+  for (int file = 0; file < 200; ++file)
+    writeMacros(scratch / "shop" / fmt::format("{}.nc", file), 100, 1000 + 10 * file);
+  const Command shop = {dotek, "lint", (scratch / "shop").string()};
+  Command kept = shop;
+  kept.insert(kept.end(), {"--cache", (scratch / "shop-cache").string()});
+  out.push_back({"lint, folder of 200 files", shop, {0, 1}, {}, {}});
+  out.push_back({"the same from --cache", kept, {0, 1}, {}, {}});
   writeMacros(scratch / "macros.nc", 5000);
   writeRows(scratch / "blocks.nc", 5000);
   for (const auto& [name, file] : {std::pair{"lint, macro programs of 5,000 lines", "macros.nc"},

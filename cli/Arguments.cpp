@@ -13,6 +13,7 @@
 #include "support/NearestName.h"
 #include "support/Printable.h"
 #include "support/Version.h"
+#include "support/Worker.h"
 #include "support/messages/Commands.h"
 
 #include <algorithm>
@@ -276,6 +277,23 @@ std::vector<std::string> spreadPairs(const std::vector<std::string>& arguments) 
   return out;
 }
 
+// What another run must be given to be the same.
+std::string commandText(const std::vector<std::string>& arguments) {
+  std::string out;
+  for (const std::string& argument : arguments)
+    out += argument + '\0';
+  return out;
+}
+
+// What tells one program from another, also of one commit.
+std::string buildText() {
+  std::error_code error;
+  const std::filesystem::path program = runningProgram();
+  const auto size = std::filesystem::file_size(program, error);
+  const auto time = std::filesystem::last_write_time(program, error).time_since_epoch().count();
+  return fmt::format("{} {} {} {} {}", kVersion, builtCommit(), dataVersion(), size, time);
+}
+
 // A wrong command line. Who asked for a document gets it, whatever was read of the rest.
 int refuse(const std::vector<std::string>& arguments, const std::string& text, std::ostream& out,
            std::ostream& err) {
@@ -331,6 +349,7 @@ std::optional<int> parseArguments(const std::vector<std::string>& arguments, Arg
     if (parsed.command == Command::New && app.get_subcommands().front()->got_subcommand("post"))
       parsed.command = Command::NewPost;
     fill(raw, parsed);
+    parsed.cache = {raw.cache, commandText(arguments), buildText()};
     return std::nullopt;
   } catch (const CLI::Success& success) {
     std::ostringstream text;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "driver/Driver.h"
+#include "driver/LintCache.h"
 #include "driver/ProgramTools.h"
 #include "driver/RunPost.h"
 #include "driver/SimDevice.h"
@@ -55,6 +56,7 @@ struct Arguments {
   bool watch = false;             // of lint
   bool statistics = false;        // of lint: --statistics
   std::string baselineFile;       // of lint: --write-baseline
+  driver::LintCache cache;        // of lint: --cache; its folder is "" without
   driver::RunPostOptions runPost; // common aside
   driver::LintOptions lint;       // paths, common and source aside
   driver::ConvertOptions convert; // inputs, common and source aside

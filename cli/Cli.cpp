@@ -359,9 +359,8 @@ template <class Work> driver::Outcome shown(const Arguments& arguments, Work wor
 }
 
 // The same of a command that says how far it is.
-template <class Options>
-driver::Outcome shown(const Arguments& arguments, Options& options,
-                      driver::Outcome (*work)(const Options& options)) {
+template <class Options, class Work>
+driver::Outcome shown(const Arguments& arguments, Options& options, const Work& work) {
   return shown(arguments, [&](Progress& progress) {
     options.progress = [&](const std::string& text) { progress.say(text); };
     driver::Outcome outcome = work(options);
@@ -406,12 +405,15 @@ int runCommand(Arguments& arguments, std::ostream& out, std::ostream& err) {
     options.paths = arguments.inputs;
     options.common = arguments.common;
     options.source = arguments.source;
+    const auto lint = [&](const driver::LintOptions& of) {
+      return arguments.cache.folder.empty() ? driver::lint(of) : driver::lint(of, arguments.cache);
+    };
     if (arguments.diff) return printer.proposals(shown(arguments, options, driver::proposeFixes), arguments);
     if (arguments.watch)
       return watch(
           options.paths,
           [&](int& status) {
-            const driver::Outcome outcome = shown(arguments, options, driver::lint);
+            const driver::Outcome outcome = shown(arguments, options, lint);
             status = printer.findings(outcome, arguments);
             std::set<std::string> read;
             for (FileId file = 0; file < outcome.sources.size(); ++file)
@@ -419,7 +421,7 @@ int runCommand(Arguments& arguments, std::ostream& out, std::ostream& err) {
             return read;
           },
           out, err);
-    return printer.findings(shown(arguments, options, driver::lint), arguments);
+    return printer.findings(shown(arguments, options, lint), arguments);
   }
   case Command::Dump:
     return printer.result(shown(arguments,

@@ -33,7 +33,7 @@ struct Raw {
   std::vector<std::string> select, ignore;
   std::string failOn;
   bool fix = false, followLinks = false, listSkipped = false, statistics = false;
-  std::string baseline, writeBaseline, changedSince;
+  std::string baseline, writeBaseline, changedSince, cache;
   bool watch = false;
   bool write = false, check = false; // of fmt
   std::string stage = "ast";

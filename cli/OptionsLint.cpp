@@ -1,6 +1,7 @@
 // Flags of `dotek lint`.
 #include "cli/Options.h"
 #include "lint/Rule.h"
+#include "support/Files.h"
 #include "support/NearestName.h"
 
 #include <algorithm>
@@ -27,6 +28,19 @@ std::set<std::string> codes(const std::vector<std::string>& given, bool all) {
   return out;
 }
 
+// What is kept is found again from files alone.
+void refuseCache(const Raw& raw) {
+  const char* const other = raw.fix                      ? "--fix, which changes files"
+                            : !raw.writeBaseline.empty() ? "--write-baseline, which writes a file"
+                            : !raw.changedSince.empty()  ? "--changed-since, which asks git"
+                            : raw.followLinks            ? "--follow-links, which leaves the folders"
+                                                         : nullptr;
+  if (other != nullptr) throw UsageError(std::string("--cache keeps no result of ") + other);
+  for (const std::string& input : raw.inputs)
+    if (isStream(input))
+      throw UsageError("--cache keeps no result of `" + inputName(input) + "`, which can be read only once");
+}
+
 } // namespace
 
 void addLint(CLI::App& app, Raw& raw) {
@@ -44,6 +58,9 @@ void addLint(CLI::App& app, Raw& raw) {
   lint->add_option("--changed-since", raw.changedSince,
                    "only findings of files that git calls changed since this commit, branch or tag")
       ->type_name("REF");
+  lint->add_option("--cache", raw.cache,
+                   "keep the result in this folder, and take it from there while no file changes")
+      ->type_name("FOLDER");
   CLI::Option* fix =
       lint->add_flag("--fix", raw.fix, "make the repairs that change no motion, coordinate or meaning");
   lint->add_flag("--diff", raw.diff, "with --fix: print the lines that would change, and how; change nothing")
@@ -79,6 +96,7 @@ driver::LintOptions lintOf(const Raw& raw) {
   if (raw.watch &&
       std::any_of(raw.inputs.begin(), raw.inputs.end(), [](const std::string& one) { return one == "-"; }))
     throw UsageError("--watch takes files and folders; what comes by standard input does not change");
+  if (!raw.cache.empty()) refuseCache(raw);
   if (!raw.select.empty()) out.select = codes(raw.select, true);
   out.ignore = codes(raw.ignore, false);
   out.control = raw.control;
