@@ -67,6 +67,7 @@ void fill(const Raw& raw, Arguments& parsed) {
   parsed.diff = raw.diff;
   parsed.traceFile = raw.traceFile;
   parsed.svgFile = raw.svgFile;
+  parsed.stockMapFile = raw.stockMap;
   parsed.htmlFile = raw.htmlFile;
   parsed.watch = raw.watch;
   parsed.statistics = raw.statistics;

@@ -68,6 +68,7 @@ struct Arguments {
   sim::DeviceOptions device;      // of sim
   std::string traceFile;          // --trace
   std::string svgFile, htmlFile;  // --svg, --html
+  std::string stockMapFile;       // --stock-map
   driver::VerifyOptions verify;   // inputs, common and source aside
   bool quiet = false;
   ColorMode color = ColorMode::Auto;

@@ -201,17 +201,18 @@ public:
     if (!ran || outcome.status == kUsage) outputs.clear();
     const std::string reportPicture = pictureBeside(arguments.reportFile);
     for (const driver::OutputFile& one : outcome.files) {
-      const std::string& path = one.name == "svg"      ? arguments.svgFile
-                                : one.name == "html"   ? arguments.htmlFile
-                                : one.name == "report" ? arguments.reportFile
-                                                       : reportPicture;
+      const std::string& path = one.name == "svg"         ? arguments.svgFile
+                                : one.name == "html"      ? arguments.htmlFile
+                                : one.name == "stock-map" ? arguments.stockMapFile
+                                : one.name == "report"    ? arguments.reportFile
+                                                          : reportPicture;
       if (outcome.status == kUsage || !add(path)) break;
       outputs.back()->write(one.text);
     }
     const std::vector<std::string> paths = {
-        orStandardOutput(arguments.traceFile), orStandardOutput(arguments.svgFile),
-        orStandardOutput(arguments.htmlFile), orStandardOutput(arguments.reportFile),
-        orStandardOutput(reportPicture)};
+        orStandardOutput(arguments.traceFile),  orStandardOutput(arguments.svgFile),
+        orStandardOutput(arguments.htmlFile),   orStandardOutput(arguments.stockMapFile),
+        orStandardOutput(arguments.reportFile), orStandardOutput(reportPicture)};
     const bool placed =
         !writing.hasErrors() && checkRead(paths, outcome.sources, writing) && placeAll(outputs, writing);
     err_ << renderText(writing, SourceMap(), maxErrors_, errColors_);

@@ -51,6 +51,7 @@ std::vector<OutputName> outputsOf(const Arguments& arguments) {
   if (sim && !arguments.reportFile.empty()) add("--report", pictureBeside(arguments.reportFile));
   add("--trace", arguments.traceFile);
   add("--svg", arguments.svgFile);
+  add("--stock-map", arguments.stockMapFile);
   add("--html", arguments.htmlFile);
   return out;
 }
@@ -77,9 +78,9 @@ std::vector<std::string> inputsOf(const Arguments& arguments) {
     out = arguments.inputs;
   for (const auto& one :
        {arguments.lint.baseline, arguments.source.prog, arguments.common.job, arguments.sim.part,
-        arguments.sim.machine, arguments.device.device, arguments.verify.part, arguments.verify.machine,
-        arguments.verify.translation, arguments.runPost.diff, arguments.runPost.expect,
-        arguments.runPost.part, arguments.runPost.machine})
+        arguments.sim.machine, arguments.sim.stock, arguments.device.device, arguments.verify.part,
+        arguments.verify.machine, arguments.verify.translation, arguments.runPost.diff,
+        arguments.runPost.expect, arguments.runPost.part, arguments.runPost.machine})
     if (one) out.push_back(*one);
   std::error_code error;
   for (const std::string& data : arguments.common.data)

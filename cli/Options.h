@@ -52,6 +52,7 @@ struct Raw {
   bool all = false;                   // of renumber
   bool diff = false;                  // of fmt
   std::string traceFile, svgFile, htmlFile;
+  std::string stock, stockMap; // of sim
   std::string part, machine, device, partError, translation;
   std::vector<std::string> values; // --value
   std::string cases, seed, jobs, minAgreed, tolerance, activeSystem;

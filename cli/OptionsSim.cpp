@@ -73,6 +73,12 @@ void addSim(CLI::App& app, Raw& raw) {
   sim->add_option("--report", raw.report,
                   "write a page (Markdown) on what the device did, with a picture beside it (OUT with .svg)")
       ->type_name("OUT");
+  CLI::Option* stock =
+      sim->add_option("--stock", raw.stock, "block that the program cuts, its tools and the finished part");
+  stock->type_name("STOCK.toml");
+  sim->add_option("--stock-map", raw.stockMap, "write a picture of what is left of the block, from above")
+      ->type_name("OUT")
+      ->needs(stock);
   addSetup(*sim, raw);
   sim->add_option("--active-system", raw.activeSystem,
                   "work system in force as the program begins, 54 to 59 (54)")
@@ -170,6 +176,8 @@ driver::SimOptions simOf(const Raw& raw) {
   if (!raw.simDatum.empty()) out.setup.zeros.push_back(datumOf(raw.simDatum));
   out.svg = !raw.svgFile.empty();
   out.html = !raw.htmlFile.empty();
+  if (!raw.stock.empty()) out.stock = raw.stock;
+  out.stockMap = !raw.stockMap.empty();
   if (!raw.part.empty()) out.part = raw.part;
   if (!raw.machine.empty()) out.machine = raw.machine;
   out.control = raw.control;

@@ -26,6 +26,8 @@ struct SimOptions {
   std::optional<std::string> probeMacros;
   std::optional<std::string> part, machine; // --part, --machine: paths
   Setup setup;                              // --tool, --length, --diameter, --work-offset, --at, --call
+  std::optional<std::string> stock;         // --stock: path of a block that the program cuts
+  bool stockMap = false;                    // the picture of it as file "stock-map"
   bool svg = false, html = false;           // pictures of the run as files "svg" and "html"
   std::uint8_t activeSystem = 0;            // --active-system: 0 to 5 for G54 to G59
   std::string date;                         // that the pictures show; "": none

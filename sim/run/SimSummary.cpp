@@ -97,6 +97,7 @@ std::string SimWorld::summary() const {
   if (contactCount_ > contacts_.size() || eventCount_ > events_.size())
     out += fmt::format("  \"contactsLeftOut\": {},\n  \"eventsLeftOut\": {},\n",
                        contactCount_ - contacts_.size(), eventCount_ - events_.size());
+  if (stock_) out += "  \"stock\": " + stockJson(*stock_, stockMargin_) + ",\n";
   return out;
 }
 

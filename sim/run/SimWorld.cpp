@@ -58,6 +58,7 @@ std::unique_ptr<SimWorld> SimWorld::load(const SimOptions& options, Session& ses
                                          std::string_view command) {
   std::unique_ptr<SimWorld> out(new SimWorld(options, session));
   out->picture_ = options.svg || options.html;
+  if (!out->loadStockFile()) return nullptr;
   std::optional<Setup> given = setupOfJob(session);
   if (!given) return nullptr;
   given->override(options.setup);
@@ -250,6 +251,7 @@ void SimWorld::attach(Machine& machine) {
     return Point3{machine.dialect().showsDiameters ? 2 * at[0] : at[0], at[1], at[2]};
   };
   decimals_ = machine.dialect().wordDecimals.value_or(machine.control().decimals);
+  stockTool_ = machine.tool() != 0 ? machine.tool() : setup_.tool.value_or(0);
   if (world_) world_->toolChanged(machine.tool());
   // The zero of a Mikroprog is set by the program, at a contact.
   if (!machine.dialect().firstParameter)
@@ -279,6 +281,7 @@ void SimWorld::checkSystem() {
 
 void SimWorld::toolChanged(std::uint32_t number) {
   stopSpindle();
+  stockTool_ = number;
   // The correction of the tool is in force with it, and coordinates go on at its end.
   const CuttingTool* const tool = machine_ ? machine_->devices.find(number) : nullptr;
   const bool isProbe = machine_ && machine_->devices.probeTool == number;
@@ -330,6 +333,7 @@ void SimWorld::moved(const MachineMotion& motion) {
   if (isBesideItsPath()) return;
   if (device_ != nullptr) device_->moved(motion.from, motion.to);
   if (motion.kind != MotionKind::Skip) motion_ = {motion.from, motion.to};
+  if (stock_) followStock(motion);
   takeLength();
   if (recorder_)
     recorder_->moved(shifted(motion));
@@ -548,10 +552,13 @@ std::uint64_t SimWorld::collisions() const {
 }
 
 std::string SimWorld::measuredTable() const {
-  return measuredText(log_.entries(), log_.leftOut(), decimals_, control_);
+  std::string out = measuredText(log_.entries(), log_.leftOut(), decimals_, control_);
+  if (stock_) out += sim::stockText(*stock_, stockMargin_);
+  return out;
 }
 
 void SimWorld::reportRest() {
+  finishStock();
   finishPicture();
   for (const Told& told : told_) {
     if (told.number <= kMostTold) continue;
@@ -565,6 +572,8 @@ void SimWorld::reportRest() {
 
 std::vector<OutputFile> SimWorld::pictures() const {
   std::vector<OutputFile> out;
+  if (stock_ && options_.stockMap)
+    out.push_back({"stock-map", stockSvg(*stock_, stockMargin_, options_.program)});
   if (!recorder_) return out;
   if (options_.svg) out.push_back({"svg", pictureSvg(recorder_->picture())});
   if (options_.html) out.push_back({"html", pictureHtml(recorder_->picture())});

@@ -13,6 +13,7 @@
 #include "sim/run/Clearance.h"
 #include "sim/run/MeasuredLog.h"
 #include "sim/run/Options.h"
+#include "sim/stock/StockRun.h"
 #include "support/OutputFile.h"
 
 #include <array>
@@ -114,7 +115,7 @@ public:
 
   // After the run and after reportRest(): the pictures that were asked for.
   std::vector<OutputFile> pictures() const;
-  // What was measured, as text; "": nothing.
+  // What was measured, and what was cut, as text; "": nothing.
   std::string measuredTable() const;
   void reportRest(); // what was too much to be reported one by one
   // "measured", "contacts" and "events" of the summary, each on a line that ends with a comma.
@@ -191,7 +192,7 @@ private:
   bool loadFiles(const Setup& given);
   bool isBesideItsPath(); // by cutter compensation, where that matters: the run has ended
   void takeLength();      // of a tool that is in no list
-  bool isActive() const { return world_.has_value() || picture_ || device_ != nullptr; }
+  bool isActive() const { return world_.has_value() || picture_ || device_ != nullptr || stock_.has_value(); }
   void begin();
   void checkSystem(); // that somebody has set the work system that the probe measures in
   void finishPicture();
@@ -231,6 +232,10 @@ private:
   std::string startText() const;
   void noteZeroLeftOut(Diagnostic& finding) const; // of a machine's file, which counts with a part alone
   void tellZeroLeftOut(const Machine& machine);
+  // SimStock.cpp: the block of --stock.
+  bool loadStockFile(); // false: reported
+  void followStock(const MachineMotion& motion);
+  void finishStock();
   // SimTouch.cpp: touches that measure something else than the program takes them for.
   void checkEdge(const ProbeEvent& event, const RunPlace& place);
   void checkWear(const OffsetWrite& write);
@@ -258,6 +263,11 @@ private:
   std::optional<std::array<double, 3>> partZero_; // where the part is meant to be
   std::optional<std::uint8_t> zeroLeftOut_;       // a system that was to be there, and there is no part
   std::optional<World> world_;
+  std::optional<StockRun> stock_;
+  std::optional<StockMargin> stockMargin_;                 // after the run
+  std::uint32_t stockAxes_ = 0;                            // bits of X, Y and Z: those that have moved
+  std::uint32_t stockTool_ = 0;                            // in the spindle; 0: none was called
+  std::set<std::pair<FileId, std::uint32_t>> stockRapids_; // blocks whose rapid was reported
   bool picture_ = false;
   std::string_view subject_ = "program";
   std::string control_; // that the program runs on; "": none
