@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <fmt/format.h>
 
 namespace dotek::targets {
 
@@ -56,6 +57,9 @@ verify::Entry entryFor(const verify::Case& drawn, bool probeOn) {
   entry.system = drawn.system;
   entry.toolOffset = drawn.toolOffset;
   entry.probeOn = probeOn;
+  // What #4120 holds: the operation's tool is in the spindle.
+  const double tool = host("tool_number");
+  if (tool >= 1 && tool <= 9999 && tool == std::floor(tool)) entry.blocks = fmt::format("T{:.0f}\n", tool);
   return entry;
 }
 

@@ -132,11 +132,16 @@ private:
     return sameOwnText();
   }
 
-  // Of `#3000`; one control may show less of it, and a translation writes it in capitals.
+  // Of `#3000`; one control may show less of it, and a translation writes it in capitals and cuts it after a
+  // word where the next one is not shown.
   bool sameOwnText() const {
+    constexpr std::size_t kLeastShown = 20; // characters that any control shows
     const std::string one = upperCase(source_.text), other = upperCase(target_.text);
     const std::size_t shown = std::min(one.size(), other.size());
-    return one.compare(0, shown, other, 0, shown) == 0 && (shown > 0 || one == other);
+    if (shown == 0 || one.compare(0, shown, other, 0, shown) != 0) return one == other;
+    if (one.size() <= other.size()) return one.size() == other.size() || shown >= kLeastShown;
+    const std::size_t next = one[shown] == ' ' ? shown + 1 : shown;
+    return std::min(one.find(' ', next), one.size()) > rules_.shownText;
   }
 
   // A translation numbers the alarms of the source's own text anew and keeps their texts.

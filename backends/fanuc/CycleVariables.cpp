@@ -333,7 +333,9 @@ bool writesWorkOffset(const State& state, const ir::OpaqueBlock& block) {
     const double* number = word.value == nullptr ? nullptr : ir::constantValue(word.value);
     if (std::string_view("XYZN").find(word.address) != std::string_view::npos) continue;
     if (number == nullptr) {
-      if (word.address != 'P' || word.value == nullptr || !isSystemByList(state, *word.value)) return false;
+      if (word.address != 'P' || word.value == nullptr ||
+          !(isSystemByList(state, *word.value) || confinedTo(state, word.value, 1, 6)))
+        return false;
     } else if (word.address == 'L' && *number == 2) {
       offset = true;
     } else if (!isOfDataInput(word, *number) && !(word.address == 'P' && isSystem(*number))) {
@@ -365,9 +367,14 @@ bool writesToolOrExtended(const State& state, const ir::OpaqueBlock& block) {
     return false;
   const stdlib::SystemVariables &from = state.options.sourceControl.variables, &to = state.control.variables;
   if (tool) return from.toolGeometry && from.toolWear && to.toolGeometry && to.toolWear;
-  const double* const system = valueOf(block, 'P');
-  return from.extendedX && to.extendedX && system != nullptr && *system >= 1 &&
-         *system <= std::min(from.extendedCount, to.extendedCount) && *system == std::floor(*system);
+  if (!from.extendedX || !to.extendedX) return false;
+  const int most = std::min(from.extendedCount, to.extendedCount);
+  return std::any_of(block.words.begin(), block.words.end(), [&](const ir::Word& word) {
+    if (word.address != 'P' || word.value == nullptr) return false;
+    const double* const system = ir::constantValue(word.value);
+    return system != nullptr ? *system >= 1 && *system <= most && *system == std::floor(*system)
+                             : confinedTo(state, word.value, 1, most);
+  });
 }
 
 // What the block has beside what both controls are known to read alike: "its `P` is computed", "it has

@@ -110,7 +110,7 @@ TargetRun FanucVerification::run(const TargetCase& now) {
 
 verify::Entry FanucVerification::entryOf(const TargetCase& now) const {
   verify::Entry entry = now.entry;
-  entry.blocks = verify::callerModes(control_, now.stream);
+  entry.blocks += verify::callerModes(control_, now.stream);
   addArguments(now.drawn, entry);
   presetTools(from_, now.drawn, entry);
   return entry;

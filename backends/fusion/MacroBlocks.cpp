@@ -398,7 +398,7 @@ void MacroBlocks::move(const ir::Move& move, const ir::Origin& origin, std::vect
     if (waits_) wait(lines);
     if (move.feed != nullptr) {
       text.add(" F");
-      texts_.number(text, move.feed, origin);
+      valueOfWord(text, move.feed, origin);
     } else if (move.motion == ir::Motion::Feed) {
       state_.diagnostics.report<diag::FeedNotStated>(origin.range());
     }
@@ -544,7 +544,8 @@ void MacroBlocks::call(const MacroCall& call, const ir::Origin& origin, std::vec
   for (const auto& [argument, value] : call.arguments) {
     const bool positive =
         argument->role == stdlib::ArgumentRole::Feed || argument->role == stdlib::ArgumentRole::Diameter;
-    if (positive && ir::constantValue(ir::simplify(value)) == nullptr)
+    // What a variable of the control holds is for its macro to look at.
+    if (positive && !needsControl(value) && ir::constantValue(ir::simplify(value)) == nullptr)
       state_.errorIf(valueText(state_, value, origin.range()) + " <= 0",
                      std::string(stdlib::roleName(argument->role)) + " of macro " +
                          std::to_string(signature.program) + " is not above 0",

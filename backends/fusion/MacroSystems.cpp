@@ -51,6 +51,8 @@ void MacroBlocks::guardSystem(const ir::ExpressionPtr& system, const stdlib::Mac
     state_.refuse<diag::SystemRange>(origin.range(), words.number, words.remedy);
     return;
   }
+  // What a variable of the control holds is for its macro to look at.
+  if (called && needsControl(system)) return;
   for (const ir::VariableId id : givenFor(state_.cycle, system))
     if (const auto passes = passesNoSystem(state_.cycle, id, system, extended)) {
       const std::string& name = state_.cycle.variable(id).name;

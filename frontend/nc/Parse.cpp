@@ -130,20 +130,40 @@ bool BlockParser::item(Block& block) {
   return unexpected();
 }
 
+namespace {
+
+// "D" of "field `D`".
+std::string_view nameOf(std::string_view hole) {
+  const std::size_t open = hole.find('`'), close = hole.rfind('`');
+  return open < close && close != std::string_view::npos ? hole.substr(open + 1, close - open - 1) : hole;
+}
+
+} // namespace
+
 bool BlockParser::comment(Block& block) {
   const std::size_t begin = in_.position();
+  in_.skip();
+  std::string text;
   while (in_.peek() != ')') {
     if (in_.peek() == Reader::kEnd)
       return syntax(in_.range(begin, begin + 1),
                     "the comment that begins here has no `)` in its block; a control skips all words after "
                     "it or stops with an alarm");
     if (in_.peek() == Reader::kHole) {
-      diagnostics_.report<diag::ValueInComment>(in_.here(), in_.hole().hole.name);
-      return false;
+      const std::string& name = in_.hole().hole.name;
+      // An operator would read another text than the source's.
+      if (!block.assignments.empty() || block.statement) {
+        diagnostics_.report<diag::ValueInComment>(in_.here(), name);
+        return false;
+      }
+      text += nameOf(name);
+      diagnostics_.report<diag::ValueNamed>(in_.here(), name, nameOf(name));
+    } else {
+      text += in_.text(in_.position(), in_.position() + 1);
     }
     in_.skip();
   }
-  block.comments.push_back({std::string(in_.text(begin + 1, in_.position())), {}});
+  block.comments.push_back({std::move(text), {}});
   in_.skip();
   block.comments.back().range = in_.range(begin, in_.position());
   return true;

@@ -4,12 +4,30 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <optional>
 
 namespace dotek::frontend::nc {
 namespace {
 
 constexpr std::size_t kMostDigits = 8;
 constexpr std::array<std::string_view, 6> kRelations = {"EQ", "NE", "GT", "LT", "GE", "LE"};
+
+// What sums and products of numbers come to; nothing: it counts from something else.
+std::optional<double> constantOf(const Expression& expression) {
+  if (const auto* number = std::get_if<Number>(&expression.node)) return number->value;
+  if (const auto* negated = std::get_if<Negated>(&expression.node)) {
+    const auto value = constantOf(*negated->operand);
+    return value ? std::optional(-*value) : std::nullopt;
+  }
+  const auto* operation = std::get_if<Operation>(&expression.node);
+  if (operation == nullptr) return std::nullopt;
+  const auto left = constantOf(*operation->left), right = constantOf(*operation->right);
+  if (!left || !right) return std::nullopt;
+  if (operation->op == "+") return *left + *right;
+  if (operation->op == "-") return *left - *right;
+  return operation->op == "*" ? std::optional(*left * *right) : std::nullopt;
+}
 
 } // namespace
 
@@ -59,6 +77,18 @@ bool BlockParser::statement(Block& block) {
 bool BlockParser::statementNumber(std::string_view after, std::uint64_t& out) {
   in_.skipBlanks();
   const std::size_t begin = in_.position();
+  if (in_.peek() == '[' && after == "GOTO") {
+    const ExpressionPtr number = bracketed();
+    if (!number) return false;
+    const std::optional<double> value = constantOf(*number);
+    constexpr double kMost = 99'999'999;
+    if (value && *value >= 1 && *value <= kMost && *value == std::trunc(*value)) {
+      out = static_cast<std::uint64_t>(*value);
+      return true;
+    }
+    diagnostics_.report<diag::JumpComputed>(in_.range(begin, in_.position()), after);
+    return false;
+  }
   while (isDigit(in_.peek()))
     in_.skip();
   const std::size_t end = in_.position();

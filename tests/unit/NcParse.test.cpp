@@ -84,8 +84,9 @@ TEST_CASE("holes are where a number is") {
   CHECK(parsed("X1. {a}") == "refused: [syntax-error]");
   CHECK(parsed("{a} X1.") == "refused: [syntax-error]");
   CHECK(parsed("N{a} X1.") == "refused: [syntax-error]");
-  CHECK(parsed("(DEPTH {a})") == "refused: [value-in-comment]");
-  CHECK(pointed("G0 (DEPTH {a})") == "{a}");
+  CHECK(parsed("(DEPTH {a})") == "with [value-named]");
+  CHECK(parsed("#3006=1(DEPTH {a})") == "refused: [value-in-comment]");
+  CHECK(parsed("IF[#1GT1.]THEN#3000=1(DEPTH {a})") == "refused: [value-in-comment]");
   CHECK(pointed("G0 X{a}25 Y1.") == "25");
 }
 
@@ -178,9 +179,9 @@ TEST_CASE("statements of the port are read with what they print") {
 }
 
 TEST_CASE("statements that steer a branch: their condition and where they lead") {
-  for (const std::string one :
-       {"IF[#100EQ0]GOTO10", "IF [ABS[#100-[5.+.1]] LT .01] THEN #101=2.", "GOTO100", "WHILE[#100LE5]DO1",
-        "DO2", "END2", "IF[[#100GT1]AND[#101LT[#102+2]]]GOTO8", "IF[#100NE#0]THEN GOTO10"}) {
+  for (const std::string one : {"IF[#100EQ0]GOTO10", "IF [ABS[#100-[5.+.1]] LT .01] THEN #101=2.", "GOTO100",
+                                "WHILE[#100LE5]DO1", "GOTO[70+2]", "IF[#100EQ1]GOTO[2*[30+6]]", "DO2", "END2",
+                                "IF[[#100GT1]AND[#101LT[#102+2]]]GOTO8", "IF[#100NE#0]THEN GOTO10"}) {
     INFO(one);
     CHECK(parsed("N10 " + one).find("refused") == std::string::npos);
   }
@@ -190,7 +191,9 @@ TEST_CASE("statements that steer a branch: their condition and where they lead")
   CHECK(parsed("IF[#100EQ1]THEN M5") == "refused: [syntax-error]");
   CHECK(parsed("WHILE[#100EQ1]GOTO5") == "refused: [syntax-error]");
   CHECK(parsed("GOTO#100") == "refused: [jump-computed]");
-  CHECK(parsed("GOTO[100+1]") == "refused: [jump-computed]");
+  CHECK(parsed("GOTO[100+#1]") == "refused: [jump-computed]");
+  CHECK(parsed("GOTO[7.5]") == "refused: [jump-computed]");
+  CHECK(parsed("GOTO[5-5]") == "refused: [jump-computed]");
   CHECK(parsed("G0 GOTO10") == "refused: [mixed-block]");
   CHECK(parsed("GOTO10 G0") == "refused: [mixed-block]");
 }
