@@ -73,8 +73,9 @@ struct Comparison {
   std::string relation; // EQ NE GT LT GE LE
   ExpressionPtr left, right;
 };
-struct Joined {     // [..] AND [..]
-  bool both = true; // else OR
+enum class Joint : std::uint8_t { Or, And, Xor };
+struct Joined { // [..] AND [..]
+  Joint joint = Joint::And;
   ConditionPtr left, right;
 };
 struct Condition {

@@ -42,7 +42,8 @@ private:
   ConditionPtr conditionHere(); // in its brackets
   ConditionPtr junction();      // OR
   ConditionPtr conjunction();   // AND, the higher one as among numbers
-  ConditionPtr joined(std::string_view op, ConditionPtr (BlockParser::*operand)());
+  ConditionPtr joined(std::initializer_list<std::string_view> operators,
+                      ConditionPtr (BlockParser::*operand)());
   bool addressesOnce(const Block& block);
 
   ExpressionPtr expression(); // + - OR XOR

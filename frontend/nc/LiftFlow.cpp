@@ -184,7 +184,12 @@ ir::ConditionPtr Lifter::condition(const Condition& condition) {
     const ir::ConditionPtr left = this->condition(*joined->left);
     const ir::ConditionPtr right = left ? this->condition(*joined->right) : nullptr;
     if (!right) return nullptr;
-    return ir::join(joined->both ? ir::Connective::And : ir::Connective::Or, left, right, condition.range);
+    const SourceRange range = condition.range;
+    if (joined->joint == Joint::Xor)
+      return ir::join(ir::Connective::Or, ir::join(ir::Connective::And, left, ir::negate(right), range),
+                      ir::join(ir::Connective::And, ir::negate(left), right, range), range);
+    return ir::join(joined->joint == Joint::And ? ir::Connective::And : ir::Connective::Or, left, right,
+                    range);
   }
   const auto& comparison = std::get<Comparison>(condition.node);
   const auto isEmpty = [](const Expression& side) {

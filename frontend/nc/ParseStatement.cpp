@@ -122,26 +122,32 @@ bool BlockParser::holdsRelation() const {
   return false;
 }
 
-ConditionPtr BlockParser::joined(std::string_view op, ConditionPtr (BlockParser::*operand)()) {
+ConditionPtr BlockParser::joined(std::initializer_list<std::string_view> operators,
+                                 ConditionPtr (BlockParser::*operand)()) {
   ConditionPtr out = (this->*operand)();
-  while (out && !operatorHere({op}).empty()) {
+  while (out) {
+    const std::string_view op = operatorHere(operators);
+    if (op.empty()) break;
     if (!count()) return nullptr;
     ConditionPtr right = (this->*operand)();
     if (!right) return nullptr;
     auto both = std::make_unique<Condition>();
     both->range = {out->range.file, out->range.begin, right->range.end};
-    both->node = Joined{op == "AND", std::move(out), std::move(right)};
+    both->node = Joined{op == "AND"  ? Joint::And
+                        : op == "OR" ? Joint::Or
+                                     : Joint::Xor,
+                        std::move(out), std::move(right)};
     out = std::move(both);
   }
   return out;
 }
 
 ConditionPtr BlockParser::junction() {
-  return joined("OR", &BlockParser::conjunction);
+  return joined({"OR", "XOR"}, &BlockParser::conjunction);
 }
 
 ConditionPtr BlockParser::conjunction() {
-  return joined("AND", &BlockParser::conditionHere);
+  return joined({"AND"}, &BlockParser::conditionHere);
 }
 
 ConditionPtr BlockParser::conditionHere() {

@@ -179,9 +179,11 @@ TEST_CASE("statements of the port are read with what they print") {
 }
 
 TEST_CASE("statements that steer a branch: their condition and where they lead") {
-  for (const std::string one : {"IF[#100EQ0]GOTO10", "IF [ABS[#100-[5.+.1]] LT .01] THEN #101=2.", "GOTO100",
-                                "WHILE[#100LE5]DO1", "GOTO[70+2]", "IF[#100EQ1]GOTO[2*[30+6]]", "DO2", "END2",
-                                "IF[[#100GT1]AND[#101LT[#102+2]]]GOTO8", "IF[#100NE#0]THEN GOTO10"}) {
+  for (const std::string one :
+       {"IF[#100EQ0]GOTO10", "IF [ABS[#100-[5.+.1]] LT .01] THEN #101=2.", "GOTO100", "WHILE[#100LE5]DO1",
+        "GOTO[70+2]", "IF[#100EQ1]GOTO[2*[30+6]]", "DO2", "END2", "IF[[#100GT1]AND[#101LT[#102+2]]]GOTO8",
+        "IF[[#100GT1]XOR[#101LT2]]GOTO8", "IF[[#100GT1]XOR[#101LT2]OR[#100EQ#0]]THEN#102=1.",
+        "IF[#100NE#0]THEN GOTO10"}) {
     INFO(one);
     CHECK(parsed("N10 " + one).find("refused") == std::string::npos);
   }
