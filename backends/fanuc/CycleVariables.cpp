@@ -226,9 +226,10 @@ private:
     const stdlib::SystemVariables& from = state_.options.sourceControl.variables;
     const stdlib::SystemVariables& to = state_.control.variables;
     if (!from.workOffsetX || !to.workOffsetX || from.axisStep != 1 || from.systemStep <= 0) return nullptr;
+    constexpr int kLastAxis = 3; // the fourth: #5204, and #2801 of a 6M (fanuc-macro-b.md, 1.10)
     // #5201 of `#[5201+20*n]` is one system before G54.
     const int before = static_cast<int>(base) - (*from.workOffsetX - from.systemStep);
-    if (before < 0 || before >= 7 * from.systemStep || before % from.systemStep > 2) return nullptr;
+    if (before < 0 || before >= 7 * from.systemStep || before % from.systemStep > kLastAxis) return nullptr;
     const int system = before / from.systemStep - 1, axis = before % from.systemStep;
     const int first = *to.workOffsetX + system * to.systemStep + axis * to.axisStep;
     return countedAs(number, {static_cast<double>(base), static_cast<double>(from.systemStep)},

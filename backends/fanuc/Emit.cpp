@@ -136,6 +136,7 @@ std::optional<std::vector<EmittedLine>> emit(const ir::Cycle& given, const EmitO
   writeBody(state);
   const Sheet body = std::exchange(state.sheet, Sheet());
   if (state.failed) return std::nullopt;
+  dropDefaultsElsewhere(state);
   planDemands(state);
   writeArguments(state);
   writeStarts(state);

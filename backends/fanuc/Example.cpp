@@ -62,6 +62,15 @@ std::map<ir::VariableId, double> exampleValues(const State& state) {
   for (const Argument& argument : state.arguments) {
     const ir::Variable& variable = state.cycle.variable(argument.variable);
     out[argument.variable] = typical(variable);
+    // A list may count G54 as 1.
+    const auto list = state.options.choices.find(argument.variable);
+    if (variable.kind == ir::Kind::WorkOffset && !variable.defaultValue &&
+        list != state.options.choices.end() && !list->second.empty() &&
+        std::none_of(list->second.begin(), list->second.end(),
+                     [](const Choice& one) { return one.value == 54; })) {
+      out[argument.variable] = list->second.front().value;
+      all[argument.variable] = ir::Scalar::of(list->second.front().value);
+    }
     const int last = state.control.variables.toolCount;
     if (putsLength(argument.variable) &&
         (out[argument.variable] <= 0 || (last > 0 && out[argument.variable] > last)))

@@ -232,6 +232,26 @@ std::uint32_t helperAtEntry(State& state) {
 
 } // namespace
 
+void dropDefaultsElsewhere(State& state) {
+  for (const NamedSystem& system : state.systems) {
+    const std::set<ir::VariableId> given = givenFor(state.cycle, system.number);
+    if (given.size() != 1) continue;
+    const ir::VariableId id = *given.begin();
+    ir::Variable& variable = state.cycle.variables[id];
+    if (variable.role != ir::Role::Parameter || !variable.defaultValue) continue;
+    ir::Environment defaults(state.cycle.variables.size());
+    for (ir::VariableId one = 0; one < defaults.size(); ++one)
+      if (const auto& value = state.cycle.variable(one).defaultValue) defaults[one] = ir::Scalar::of(*value);
+    const ir::Scalar named = ir::evaluate(*system.number, withLocals(state.cycle, defaults));
+    if (!named.known() || namesSystem(named.value, system.extended)) continue;
+    if (passesNoSystem(state.cycle, id, system.number, system.extended)) continue; // refused as a whole
+    state.diagnostics.report<diag::DefaultSystemElsewhere>(
+        variable.range, variable.name, numberText(*variable.defaultValue), numberText(named.value),
+        state.control.title + " by macros of " + state.macros.title);
+    variable.defaultValue.reset();
+  }
+}
+
 void writeSystemAlarm(State& state, const NamedSystem& which, const ir::Origin& given) {
   const ir::ExpressionPtr& named = which.number;
   ir::Origin origin;

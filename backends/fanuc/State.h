@@ -271,6 +271,8 @@ std::optional<int> workSystemVariable(const stdlib::Control& control);
 // A block that the control does not read beyond before the axes are; nothing where it has none.
 void writeWait(State& state, const ir::Origin& origin);
 void writeSystemAlarm(State& state, const NamedSystem& system, const ir::Origin& origin);
+// A default with which the program would end in the alarm of writeSystemAlarm is none.
+void dropDefaultsElsewhere(State& state);
 // Where `offset` is not above 0.
 void writeLengthAlarm(State& state, const ir::ExpressionPtr& offset, const ir::Origin& origin);
 // What it reads is given before the body begins, and the body changes none of it.
