@@ -45,6 +45,8 @@ private:
   verify::CompareRules rulesFor(const TargetCase& now, const verify::Record& source) const;
   // Of a run of the source with other values: its places are those of another posted text.
   verify::CompareRules rulesElsewhere(const TargetCase& now, const verify::Record& source) const;
+  bool searchesOn(const verify::Record& source, const verify::Record& record,
+                  const verify::CompareRules& rules) const;
   void compareRecords(const TargetCase& now, const verify::Record& record, TargetRun& out) const;
 
   // ---- callers who break what it demands

@@ -263,6 +263,14 @@ verify::CompareRules FanucVerification::rulesElsewhere(const TargetCase& now,
   return rules;
 }
 
+// How far another vendor's macro searches is its own business: it may find what the source's does not.
+bool FanucVerification::searchesOn(const verify::Record& source, const verify::Record& record,
+                                   const verify::CompareRules& rules) const {
+  return !sameMacros(sourceSet_, set_) && source.ending == verify::Ending::Alarm &&
+         source.alarmKind == stdlib::macroAlarmName(stdlib::MacroAlarm::ProbeFail) &&
+         (verify::findsAll(record) || !rules.samePlace(source.endedAt, record.endedAt));
+}
+
 void FanucVerification::compareRecords(const TargetCase& now, const verify::Record& record,
                                        TargetRun& out) const {
   const verify::Record& source = *now.source;
@@ -280,16 +288,13 @@ void FanucVerification::compareRecords(const TargetCase& now, const verify::Reco
       !saysSo(translation_.text, record.text, source.text))
     out.differsAt(verify::Aspect::Ending,
                   fmt::format("an alarm (`{}`) against `{}`", source.text, record.text), line);
-  // How far another vendor's macro searches is its own business: it may find what the source's does not.
-  const bool searches = source.ending == verify::Ending::Alarm &&
-                        source.alarmKind == stdlib::macroAlarmName(stdlib::MacroAlarm::ProbeFail);
-  // So is whether it begins where the ball is already in contact: at an edge the travel is that short.
+  // Another vendor's macro may begin where the ball is already in contact: at an edge the travel is that
+  // short.
   const bool begins = record.alarmKind == stdlib::macroAlarmName(stdlib::MacroAlarm::ProbeOpen);
   if (!sameMacros(sourceSet_, set_) && now.drawn.edge && begins && source.alarmKind != record.alarmKind) {
     out.undecided = true;
     out.why = "the ball touches where a measure begins: " + record.text;
-  } else if (!sameMacros(sourceSet_, set_) && searches &&
-             (verify::findsAll(record) || !rules.samePlace(source.endedAt, record.endedAt)))
+  } else if (searchesOn(source, record, rules))
     out.undecided = true;
   else
     add(verify::compare(source, record, rules), out);
