@@ -45,18 +45,6 @@ std::vector<double> choicesOf(const cycle::Type& type) {
   return out;
 }
 
-// A touch finds its surface where it begins.
-bool touchesAtOnce(const verify::Record& record, double ballRadius, SourceRange& at) {
-  for (const verify::Measure& measure : record.measures) {
-    if (measure.contacts.empty()) continue;
-    const sim::Point3 centre = measure.start + sim::Point3{0, 0, ballRadius};
-    if ((measure.contacts.front().centre - centre).length() >= kLeastWay) continue;
-    at = measure.range;
-    return true;
-  }
-  return false;
-}
-
 // Without some of those after which the cycle goes on where nothing is found; which, the values decide, so
 // that a replay has the same part.
 std::vector<verify::Touch> foundOf(const verify::CycleStand::Rehearsal& rehearsal,
@@ -73,6 +61,17 @@ std::vector<verify::Touch> foundOf(const verify::CycleStand::Rehearsal& rehearsa
 }
 
 } // namespace
+
+bool touchesAtOnce(const verify::Record& record, double ballRadius, SourceRange& at) {
+  for (const verify::Measure& measure : record.measures) {
+    if (measure.contacts.empty()) continue;
+    const sim::Point3 centre = measure.start + sim::Point3{0, 0, ballRadius};
+    if ((measure.contacts.front().centre - centre).length() >= kLeastWay) continue;
+    at = measure.range;
+    return true;
+  }
+  return false;
+}
 
 CycleFileRunner::CycleFileRunner(const VerifyOptions& options, const VerifyPlan& plan)
     : options_(options), plan_(plan), session_(options.common), compilation_(session_),
@@ -245,10 +244,10 @@ bool keepsWear(const std::optional<stdlib::Control>& control) {
 } // namespace
 
 verify::Record CycleFileRunner::runCycle(const verify::Case& drawn, sim::World& world, bool keepMoves,
-                                         const verify::Interference& interference) const {
+                                         const verify::Interference& interference, sim::CycleWay* way) const {
   verify::Entry entry = entryOf(drawn);
   putTools(toolEntries(plan_, drawn), keepsWear(inputs_->control), entry);
-  return stand_->run(cycle(), inputsOf(drawn), world, entry, stores_, keepMoves, false, interference);
+  return stand_->run(cycle(), inputsOf(drawn), world, entry, stores_, keepMoves, false, interference, way);
 }
 
 // A rehearsal says which surfaces it expects, the part is made of them, then it runs.
@@ -259,36 +258,35 @@ std::unique_ptr<CycleFileRunner::Played> CycleFileRunner::play(verify::Case draw
   verify::Entry entry = entryOf(out->drawn);
   putTools(toolEntries(plan_, out->drawn), keepsWear(inputs_->control), entry);
   const sim::Point3 zero = entry.zeros[out->drawn.system - 54];
-  std::size_t tooMany = 0; // surfaces, more than a part can have
   verify::CycleStand::Rehearsal rehearsal = stand_->rehearse(cycle(), inputsOf(out->drawn), probe, entry);
   if (plan_.part) {
     out->part = plan_.part;
-  } else if (std::vector<verify::Touch> surfaces = foundOf(rehearsal, out->drawn); !surfaces.empty()) {
+  } else if (out->surfaces = foundOf(rehearsal, out->drawn); !out->surfaces.empty()) {
     if (drawError) {
       verify::Random random(verify::Random::sub(out->drawn.stream, verify::Random::hash("part")));
       verify::Record expected;
-      expected.measures.emplace_back().nominal = surfaces;
+      expected.measures.emplace_back().nominal = out->surfaces;
       out->drawn.error = verify::drawError(expected, probe.ballRadius(), random);
     }
-    out->part =
-        verify::partOf(surfaces, probe.ballRadius(), std::max(probe.ballRadius(), kReach), out->drawn.error);
+    out->part = verify::partOf(out->surfaces, probe.ballRadius(), std::max(probe.ballRadius(), kReach),
+                               out->drawn.error);
     out->partMade = out->part.has_value();
-    if (!out->partMade) tooMany = surfaces.size();
   }
+  const bool tooMany = !out->part && !out->surfaces.empty();
   if (!out->part) out->part = emptyPart(zero);
   sim::World world(*out->part, probe, limits());
-  out->record = runCycle(out->drawn, world, false);
+  out->record = runCycle(out->drawn, world, false, {}, &out->way);
   out->rejected = isRejection(out->record);
   out->why = verify::whyNoEvidence(out->record, out->whyAt);
   // A cycle that touches nothing computes, and sets what it computes.
   if (out->record.ending == verify::Ending::Finished && rehearsal.surfaces.empty()) out->why.clear();
   out->atOnce = touchesAtOnce(out->record, probe.ballRadius(), out->whyAt);
   if (out->atOnce) out->why = "the ball touches where a touch begins";
-  if (tooMany > 0 && !out->why.empty()) {
+  if (tooMany && !out->why.empty()) {
     out->why =
         fmt::format("no part can be made of the {} surfaces that it touches: a part has at most {} shapes; "
                     "`--part FILE` gives one",
-                    tooMany, sim::PartBuilder::kMostShapes);
+                    out->surfaces.size(), sim::PartBuilder::kMostShapes);
     out->whyAt = {};
   }
   return out;
@@ -342,7 +340,7 @@ std::optional<verify::Case> CycleFileRunner::draw(std::uint64_t index) {
       std::uint32_t& count = played->rejected ? checks : alarms;
       if (count < kMostAlarms) {
         ++count;
-        met_.push_back(played->record.endedAt);
+        noteCompared(played->record, played->way);
         const TargetRun ran = runTarget(*played);
         if (!ran.stopped.empty())
           stopped_ = {makeDiagnostic<diag::TranslationStopped>({}, plan_.translation->name, ran.stopped),
@@ -404,6 +402,13 @@ void CycleFileRunner::takeDifferences(CaseResult& result, const TargetRun& ran) 
 }
 
 CaseResult CycleFileRunner::run(const verify::Case& drawn) {
+  CaseResult result = runBoth(drawn);
+  result.alarms = std::exchange(met_, {});
+  result.reached = std::exchange(newly_, {});
+  return result;
+}
+
+CaseResult CycleFileRunner::runBoth(const verify::Case& drawn) {
   std::unique_ptr<Played> played = std::move(drawn_); // of draw()
   if (!played) played = play(drawn, false);
   CaseResult result;
@@ -416,8 +421,6 @@ CaseResult CycleFileRunner::run(const verify::Case& drawn) {
     result.verdict = CaseVerdict::NoProgram;
     return result;
   }
-  if (played->record.ending == verify::Ending::Alarm) met_.push_back(played->record.endedAt);
-  result.alarms = std::exchange(met_, {});
   TargetRun ran = runTarget(*played);
   result.trace = std::move(ran.trace);
   if (!ran.stopped.empty()) {
@@ -436,7 +439,11 @@ CaseResult CycleFileRunner::run(const verify::Case& drawn) {
     return result;
   }
   takeDifferences(result, ran);
-  if (drawn.callers && result.findings.empty() && result.why.empty()) runAtBounds(drawn, result);
+  noteCompared(played->record, played->way);
+  if (drawn.callers && result.findings.empty() && result.why.empty()) {
+    runAtBounds(drawn, result);
+    if (result.findings.empty()) runOnOtherParts(*played, result);
+  }
   result.verdict = !result.findings.empty() ? CaseVerdict::Differ
                    : result.why.empty()     ? CaseVerdict::Agrees
                                             : CaseVerdict::Undecided;
@@ -445,15 +452,6 @@ CaseResult CycleFileRunner::run(const verify::Case& drawn) {
 
 std::vector<Rejection> CycleFileRunner::rejections() const {
   return commonestFirst(rejected_);
-}
-
-std::vector<SourceRange> CycleFileRunner::alarms() const {
-  std::vector<SourceRange> out;
-  // Those before anything moves are met by edge cases and by callers who break each check.
-  for (const ir::CycleStatement& statement : cycle().body)
-    if (std::holds_alternative<ir::Alarm>(statement.node) && statement.origin.range().hasPlace())
-      out.push_back(statement.origin.range());
-  return out;
 }
 
 VerifySides CycleFileRunner::sides() const {

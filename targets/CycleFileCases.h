@@ -42,15 +42,17 @@ public:
   CaseResult run(const verify::Case& drawn) override;
   std::vector<Rejection> rejections() const override;
   std::vector<SourceRange> alarms() const override;
+  std::vector<SourceRange> unreached(const Places& reached) const override;
   VerifySides sides() const override;
   std::optional<CasePictures> pictures(const verify::Case& drawn) override;
 
 private:
   struct Played; // the cycle's own run of a case
   class Questions;
+  class OtherParts;
   std::unique_ptr<Played> play(verify::Case drawn, bool drawError);
   verify::Record runCycle(const verify::Case& drawn, sim::World& world, bool keepMoves,
-                          const verify::Interference& interference = {}) const;
+                          const verify::Interference& interference = {}, sim::CycleWay* way = nullptr) const;
   sim::CycleInputs inputsOf(const verify::Case& drawn) const;
   verify::Entry entryOf(const verify::Case& drawn) const;
   sim::MachineLimits limits() const;
@@ -62,6 +64,10 @@ private:
   TargetRun runTarget(const Played& played, ShownRun* shown = nullptr);
   TargetRun runTarget(const Played& played, SourceQuestions* questions, ShownRun* shown);
   void runAtBounds(const verify::Case& drawn, CaseResult& result);
+  void runOnOtherParts(const Played& played, CaseResult& result);
+  // Both sides have run so.
+  void noteCompared(const verify::Record& record, const sim::CycleWay& way);
+  CaseResult runBoth(const verify::Case& drawn);
   void takeDifferences(CaseResult& result, const TargetRun& ran) const;
 
   const VerifyOptions& options_;
@@ -79,9 +85,11 @@ private:
   Limits limitsOfCycle_;
   std::optional<verify::CycleStand> stand_;
   std::unique_ptr<Verification> target_;
-  std::unique_ptr<Played> drawn_; // of draw(), for the next run()
-  Rejections rejected_;           // of the last draw()
-  std::vector<SourceRange> met_;  // alarms that both sides ran to since the last result
+  std::unique_ptr<Played> drawn_;  // of draw(), for the next run()
+  Rejections rejected_;            // of the last draw()
+  std::vector<SourceRange> met_;   // alarms that both sides ran to since the last result
+  std::vector<bool> reached_;      // statements of the body that both sides ran
+  std::vector<SourceRange> newly_; // of these, since the last result
 };
 
 } // namespace dotek::targets

@@ -10,11 +10,16 @@ inline bool isRejection(const verify::Record& record) {
   return record.ending == verify::Ending::Alarm && record.pieces.empty() && record.measures.empty();
 }
 
+// A touch finds its surface where it begins.
+bool touchesAtOnce(const verify::Record& record, double ballRadius, SourceRange& at);
+
 // `rejected`: an alarm before anything moves.
 struct CycleFileRunner::Played {
   verify::Case drawn;
   std::optional<sim::Part> part;
+  std::vector<verify::Touch> surfaces; // that the part is made of
   verify::Record record;
+  sim::CycleWay way;
   bool rejected = false;
   bool partMade = false;
   bool atOnce = false; // a touch finds its surface where it begins
@@ -27,7 +32,7 @@ struct CycleFileRunner::Played {
 class CycleFileRunner::Questions final : public SourceQuestions {
 public:
   // Both outlive it.
-  Questions(const CycleFileRunner& runner, const Played& played) : runner_(runner), played_(played) {}
+  Questions(CycleFileRunner& runner, const Played& played) : runner_(runner), played_(played) {}
   Ran with(const std::string& name, double value) override;
   Ran from(const verify::Entry& entry) override;
   Ran disturbed(const verify::Interference& interference) override;
@@ -36,7 +41,7 @@ public:
   bool maySkip(const std::string& name) override;
 
 private:
-  const CycleFileRunner& runner_;
+  CycleFileRunner& runner_;
   const Played& played_;
 };
 

@@ -31,8 +31,11 @@ SourceQuestions::Ran CycleFileRunner::Questions::from(const verify::Entry&) {
 SourceQuestions::Ran CycleFileRunner::Questions::disturbed(const verify::Interference& interference) {
   Ran out;
   sim::World world(*played_.part, probeFor(runner_.plan_, played_.drawn), runner_.limits());
-  out.record = runner_.runCycle(played_.drawn, world, false, interference);
-  if (out.record.ending != verify::Ending::Inconclusive) out.answer = Answer::Runs;
+  sim::CycleWay way;
+  out.record = runner_.runCycle(played_.drawn, world, false, interference, &way);
+  if (out.record.ending == verify::Ending::Inconclusive) return out;
+  out.answer = Answer::Runs;
+  runner_.noteCompared(out.record, way);
   return out;
 }
 

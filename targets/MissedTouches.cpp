@@ -105,12 +105,12 @@ std::vector<verify::Difference> compareUnder(const verify::Interference& by, con
   return found;
 }
 
-// Whether the move that is stopped half way is of so few steps that another control may round it to none:
-// what it meets there says nothing.
+// Whether the move that is stopped half way is of so few steps that another control may round it to none, or
+// its macro counts the rest as none: what it meets there says nothing.
 bool stopsWithinSteps(const std::optional<verify::Record>& stopped) {
   if (!stopped) return false;
   for (auto piece = stopped->pieces.rbegin(); piece != stopped->pieces.rend(); ++piece)
-    if (piece->kind == sim::PathKind::Protected) return (piece->to - piece->from).length() <= verify::kStep;
+    if (piece->kind == sim::PathKind::Protected) return (piece->to - piece->from).length() <= 2 * verify::kStep;
   return false;
 }
 

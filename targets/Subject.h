@@ -98,6 +98,7 @@ struct CaseResult {
   // Of the source, in which its runs have ended since the last result: what the translation does there is
   // known.
   std::vector<SourceRange> alarms = {};
+  std::vector<SourceRange> reached = {}; // statements that both sides ran for the first time
   std::vector<SourceRange> printed = {}; // all alarms that the posted program has where it moves
   std::string trace;                     // of the translation; only where VerifyOptions::traces wants it
 };
@@ -135,6 +136,8 @@ struct CasePictures {
   std::string translationEnds;             // with the caller who sees the difference
 };
 
+using Places = std::set<std::pair<FileId, std::uint32_t>>; // where ranges begin
+
 // One thread uses a subject.
 class CaseSubject {
 public:
@@ -158,6 +161,9 @@ public:
   virtual std::vector<Rejection> rejections() const { return {}; }
   // Statements of the source that end it with an alarm; none where they are not told apart.
   virtual std::vector<SourceRange> alarms() const { return {}; }
+  // The first statement of each part of the source that is not among `reached`, without those that end in an
+  // alarm; none where they are not told apart.
+  virtual std::vector<SourceRange> unreached(const Places& /*reached*/) const { return {}; }
   virtual VerifySides sides() const { return {}; }
   // Of a case. nullopt: there is nothing to see.
   virtual std::optional<CasePictures> pictures(const verify::Case& /*drawn*/) { return std::nullopt; }

@@ -145,6 +145,8 @@ void VerifyReport::add(std::uint64_t number, bool edge, verify::Case drawn, Case
   }
   for (const SourceRange& alarm : result.alarms)
     alarms_.emplace(alarm.file, alarm.begin);
+  for (const SourceRange& one : result.reached)
+    reached_.emplace(one.file, one.begin);
   for (const SourceRange& alarm : result.printed)
     printed_.try_emplace({alarm.file, alarm.begin}, alarm);
   if (edge) return;
@@ -454,6 +456,8 @@ void VerifyReport::tellAlarms() {
     printed_.try_emplace({alarm.file, alarm.begin}, alarm);
   for (const auto& [place, alarm] : printed_)
     if (!alarms_.contains(place)) told_.report<diag::VerifyAlarmNotMet>(alarm);
+  for (const SourceRange& one : runner_.unreached(reached_))
+    told_.report<diag::VerifyNotReached>(one);
 }
 
 void VerifyReport::tellProbe() {

@@ -96,7 +96,8 @@ private:
   std::map<std::pair<FileId, std::uint32_t>, std::pair<SourceRange, bool>> unprotected_;
   std::optional<SourceRange> unarmed_;
   std::map<std::pair<FileId, std::uint32_t>, SourceRange> printed_; // alarms of the source, by place
-  std::set<std::pair<FileId, std::uint32_t>> alarms_;              // of the source, in which cases have ended
+  Places alarms_;                                                  // of the source, in which cases have ended
+  Places reached_;                                                 // of its statements
   std::optional<std::pair<std::uint64_t, verify::Case>> agreeing_; // the first
   std::optional<std::pair<std::uint64_t, Stopped>> stopped_;       // the first
 };

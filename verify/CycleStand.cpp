@@ -48,13 +48,14 @@ std::set<std::pair<FileId, std::size_t>> mayMissIn(const ir::Cycle& cycle) {
 
 Record CycleStand::run(const ir::Cycle& cycle, sim::CycleInputs inputs, sim::World& world, const Entry& entry,
                        const std::set<std::uint32_t>& stores, bool keepMoves, bool movePath,
-                       const Interference& interference) const {
+                       const Interference& interference, sim::CycleWay* way) const {
   inputs.take(world.probe());
   const double length = inputs.tipLength;
   sim::Machine machine = machineAt(entry, length);
   world.restart(entry.noiseSeed);
   world.setOn(entry.probeOn);
   sim::CycleRun run(machine, cycle, std::move(inputs), limits_);
+  if (way != nullptr) run.follow(*way);
   Recorder recorder(machine, world, {}, length);
   recorder.assumeProbe(entry.probeOn ? Switch::On : Switch::Off);
   if (movePath) recorder.datumsMovePath();

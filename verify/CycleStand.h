@@ -16,10 +16,10 @@ public:
 
   // `inputs` without what the world's probe says: radii and length are taken from it. Of `entry` blocks and
   // modal codes do not matter, as no control executes anything. `stores`: common variables whose end values
-  // count. `movePath`: Stand::Way::MovePath.
+  // count. `movePath`: Stand::Way::MovePath. `way`: takes the way of the run; nullptr: nobody looks.
   Record run(const ir::Cycle& cycle, sim::CycleInputs inputs, sim::World& world, const Entry& entry,
              const std::set<std::uint32_t>& stores, bool keepMoves = false, bool movePath = false,
-             const Interference& interference = {}) const;
+             const Interference& interference = {}, sim::CycleWay* way = nullptr) const;
   // The surfaces that its touches expect, in the order of the run, where each is found at its place; of a run
   // that does not come to its end those before it, and `ending` says so.
   struct Rehearsal {

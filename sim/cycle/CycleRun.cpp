@@ -55,6 +55,11 @@ void CycleRun::fillHosts() {
   }
 }
 
+void CycleRun::follow(CycleWay& way) {
+  way = {std::vector<bool>(cycle_.body.size()), 0};
+  way_ = &way;
+}
+
 void CycleRun::run() {
   start_ = machine_.machinePosition();
   fillHosts();
@@ -67,6 +72,11 @@ bool CycleRun::runList(const std::vector<ir::CycleStatement>& list) {
   for (std::size_t at = 0; at < list.size();) {
     at_ = &list[at];
     jump_.reset();
+    if (way_ != nullptr && &list == &cycle_.body) {
+      constexpr std::uint64_t kPrime = 1099511628211; // FNV
+      way_->reached[at] = true;
+      way_->turns = (way_->turns ^ (at + 1)) * kPrime;
+    }
     if (!spend(kStatement)) return false;
     machine_.countBlock(machine_.frame().line);
     if (!step(list[at]) || !machine_.running()) return false;

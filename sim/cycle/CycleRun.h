@@ -51,6 +51,12 @@ struct ExpectedSurface {
   double ball = 0; // from there to what of the ball touches, mm; not less than `distance`: in contact at once
 };
 
+// The way that a run takes through the body of its cycle.
+struct CycleWay {
+  std::vector<bool> reached; // by statement
+  std::uint64_t turns = 0;   // the same where the same statements ran in the same order
+};
+
 class CycleRun final : private ir::Readings {
 public:
   // All outlive the run; the machine holds the length of the probe's tool (Machine::holdTool). `nominal`:
@@ -58,6 +64,8 @@ public:
   CycleRun(Machine& machine, const ir::Cycle& cycle, CycleInputs inputs, const Limits& limits,
            bool nominal = false);
 
+  // Before run(): it notes its way. It outlives the run.
+  void follow(CycleWay& way);
   // The checks, then the body: Machine::end() says how it came.
   void run();
 
@@ -157,6 +165,7 @@ private:
   const bool nominal_;
   std::uint64_t fuel_;
   const ir::CycleStatement* at_ = nullptr;
+  CycleWay* way_ = nullptr;
   std::optional<ir::LabelId> jump_; // of the statement that ran
   bool returned_ = false;
   bool protected_ = false;
