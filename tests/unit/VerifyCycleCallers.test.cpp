@@ -91,3 +91,32 @@ TEST_CASE("verify cycles: a demand of the program that a fragment carries is see
                   result.out << result.err);
   }
 }
+
+// The room in the bore is asked by the cycle that is called, the offset by the program before all else.
+TEST_CASE("verify cycles: which of two checks stops the caller first is open") {
+  const ProcessFolder folder;
+  folder.write("both.cycle", R"TXT(cycle both "Bore, then its tool"
+parameter wide   : length      "Bore"
+parameter cutter : tool_offset "Tool"
+spindle off
+probe on
+call bore diameter = wide -> hole
+probe off
+set tool cutter radius_wear (hole.size - wide) / 2
+)TXT");
+  const std::string flags = " --to fanuc --control fanuc-31i-b --probe-macros inspection-plus ";
+  const std::string verify = "dotek verify both.cycle" + flags +
+                             "--value cutter=0 --value wide=0 --value approach_feed=640 --value start_x=0 "
+                             "--value start_y=0 --value start_z=0 --value tool_radius=2 --active-system 54 "
+                             "--replay ";
+  const ShellResult both = folder.run(verify);
+  CHECK_MESSAGE(both.out.find("DIFFERS") == std::string::npos, both.out << both.err);
+  // Without the check of the offset the program goes on to that of the bore, and without both it moves.
+  REQUIRE(folder
+              .run("dotek convert both.cycle" + flags +
+                   "-o whole.nc && sed '/TOOL OFFSET NOT/d;/NO ROOM/d' "
+                   "whole.nc >less.nc")
+              .status == 0);
+  const ShellResult less = folder.run(verify + "--allow-edits --translation less.nc");
+  CHECK_MESSAGE(less.out.find("DIFFERS") != std::string::npos, less.out << less.err);
+}
