@@ -105,8 +105,9 @@ void addLsp(CLI::App& app, Raw&) {
 }
 
 void addPreview(CLI::App& app, Raw& raw) {
-  CLI::App* preview = app.add_subcommand("preview", "the dialog of a cycle's folder as a page (HTML)");
-  preview->add_option("FOLDER", raw.inputs, "the folder of a GibbsCAM cycle");
+  CLI::App* preview = app.add_subcommand("preview", "the dialog of a cycle as a page (HTML)");
+  preview->add_option("FOLDER", raw.inputs,
+                      "the folder of a GibbsCAM cycle, or a file of the cycle language");
   preview->add_option("-o", raw.output, "write the page to a file")->type_name("OUT");
   addForce(*preview, raw);
   addValues(*preview, raw);

@@ -10,10 +10,12 @@
 #include "project/Prog.h"
 #include "sim/picture/PictureText.h"
 #include "support/Decimal.h"
+#include "support/Temporary.h"
 #include "support/messages/Common.h"
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fmt/format.h>
 #include <map>
 
@@ -283,18 +285,20 @@ std::string page(const CycleFolder& folder, const FieldTable& fields, Session& s
   return out + "</body>\n</html>\n";
 }
 
-} // namespace
+bool isCycleFile(const PreviewOptions& options) {
+  std::error_code error;
+  return options.folders.size() == 1 && options.folders.front().ends_with(".cycle") &&
+         !std::filesystem::is_directory(options.folders.front(), error);
+}
 
-Outcome preview(const PreviewOptions& options) {
+Outcome previewFolder(const PreviewOptions& options) {
   return guarded(options.common, options.folders, [&](Session& session) {
     const std::string folderName = options.folders.size() == 1 ? options.folders.front() : "";
     if (folderName.empty())
       session.diagnostics().report<diag::MissingOption>({}, "preview", "FOLDER", "the folder of one cycle");
     else if (!isCycleFolder(folderName))
       session.diagnostics().report<diag::FileNotReadable>(
-          {}, folderName,
-          "it is no folder of a GibbsCAM cycle; `dotek doc` writes the "
-          "page of a file of the cycle language");
+          {}, folderName, "it is neither a folder of a GibbsCAM cycle nor a file of the cycle language");
     if (session.diagnostics().hasErrors()) return outcomeOf(session, "");
     Compilation compilation(session);
     const CycleFolder& folder = compilation.addFolder(folderName);
@@ -312,6 +316,54 @@ Outcome preview(const PreviewOptions& options) {
     if (session.diagnostics().hasErrors()) return outcomeOf(session, "");
     return outcomeOf(session, page(folder, fields, session));
   });
+}
+
+// The dialog that `convert --to gibbs` writes of it. Values of --set are the first ones of the dialog.
+Outcome previewCycle(const PreviewOptions& options) {
+  ConvertOptions convert;
+  convert.inputs = options.folders;
+  convert.to = "gibbs";
+  convert.probeMacros = "inspection-plus"; // the branch alone depends on it, which the page does not show
+  convert.common = options.common;
+  convert.common.set.clear();
+  convert.common.host.clear();
+  convert.defaults = options.common.set;
+  std::map<std::string, std::string> hosts = {{"approach_feed", "1000"}}; // of the branch, too
+  for (const auto& [name, text] : options.common.host)
+    if (name == "approach_feed" || name == "measuring_feed" || name == "overtravel") hosts[name] = text;
+  for (const auto& [name, text] : hosts)
+    convert.common.host.emplace_back(name, text);
+  Outcome made = driver::convert(convert);
+  if (made.status != 0 || made.diagnostics.hasErrors()) {
+    made.files.clear();
+    for (Diagnostic& one : made.diagnostics.all())
+      if (const std::size_t flag = one.message.find("--default "); flag != std::string::npos)
+        one.message.replace(flag, std::string_view("--default ").size(), "--set ");
+    return made;
+  }
+  TemporaryFolder scratch;
+  bool good = scratch.create();
+  std::string name;
+  for (const OutputFile& file : made.files) {
+    good = good && scratch.write(file.name, file.text);
+    name = file.name.substr(0, file.name.find('/'));
+  }
+  if (!good || name.empty())
+    return guarded(options.common, [&](Session& session) {
+      session.diagnostics().report<diag::FileNotReadable>({}, options.folders.front(),
+                                                          "no temporary folder can be written");
+      return outcomeOf(session, "");
+    });
+  PreviewOptions folder = options;
+  folder.folders = {(std::filesystem::path(scratch.path()) / name).string()};
+  folder.common.set.clear();
+  return previewFolder(folder);
+}
+
+} // namespace
+
+Outcome preview(const PreviewOptions& options) {
+  return isCycleFile(options) ? previewCycle(options) : previewFolder(options);
 }
 
 } // namespace dotek::driver

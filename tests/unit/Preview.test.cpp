@@ -83,12 +83,56 @@ TEST_CASE("preview: no text of an input becomes markup") {
 
 TEST_CASE("preview: what is no folder of a cycle is refused") {
   driver::PreviewOptions options;
-  options.folders = {"examples/cycles/bore.cycle"};
+  options.folders = {(root() / "examples/macros/bore.nc").string()};
   const driver::Outcome out = driver::preview(options);
   CHECK(out.status == 2);
   CHECK(out.output.empty());
   REQUIRE(!out.diagnostics.empty());
   CHECK(out.diagnostics.all().front().code == "file-not-readable");
+}
+
+TEST_CASE("preview: a file of the cycle language shows the dialog that is written of it") {
+  const TestFolder folder("dotek-preview-cycle");
+  driver::PreviewOptions options;
+  options.folders = {folder.write("slot.cycle", R"(cycle slot "Slot along x"
+parameter wide : length        "Width of the slot" require wide > 2 * ball_radius "Slot is narrow"
+parameter low  : length = 4 mm "Depth of the touches" require low > 0 mm "Depth is not above 0"
+result    size : length        "Width found"
+spindle off
+probe on
+protected move by z -low
+touch x by wide / 2 -> right
+touch x by -wide / 2 -> left
+protected move to start
+probe off
+size = right.at - left.at
+if abs(size - wide) > 0.1 mm then
+  alarm "Slot is out of tolerance"
+end
+)")};
+  // What the dialog shows first is the user's.
+  const driver::Outcome without = driver::preview(options);
+  CHECK(without.status != 0);
+  CHECK(without.output.empty());
+  std::string said;
+  for (const Diagnostic& one : without.diagnostics.all())
+    said += one.message + "\n";
+  CHECK_MESSAGE(holds(said, "write `--set wide=VALUE`"), said);
+
+  options.common.set = {{"wide", "20"}};
+  options.common.host = {{"tool_radius", "3"}, {"retract", "5"}};
+  const driver::Outcome out = driver::preview(options);
+  REQUIRE(out.status == 0);
+  CHECK(holds(out.output, "Slot along x"));
+  CHECK(holds(out.output, "Width of the slot"));
+  CHECK(holds(out.output, "value=\"20\""));
+  CHECK(holds(out.output, "value=\"4\""));
+  CHECK(holds(out.output, "The values pass."));
+  CHECK(holds(out.output, "<polyline"));
+
+  options.common.set = {{"wide", "5"}};
+  const driver::Outcome narrow = driver::preview(options);
+  CHECK_MESSAGE(holds(narrow.output, "Slot is narrow"), narrow.output);
 }
 
 } // namespace
