@@ -107,6 +107,20 @@ void Builder::close(SourceRange range, bool written) {
   statements().push_back(std::move(done.statement));
 }
 
+namespace {
+
+// `if far then stop "Far" end`: the line closes what it opens.
+bool closesItself(std::string_view line) {
+  line = line.substr(0, line.find("//"));
+  const std::size_t last = line.find_last_not_of(" \t\r\n;");
+  line = line.substr(0, last == std::string_view::npos ? 0 : last + 1);
+  constexpr std::string_view kEnd = "end";
+  return line.ends_with(kEnd) && line.size() > kEnd.size() &&
+         (line[line.size() - kEnd.size() - 1] == ' ' || line[line.size() - kEnd.size() - 1] == ';');
+}
+
+} // namespace
+
 // A line that could not be read. One that was to open, continue or close a block, in the words of another
 // language, does so all the same: the lines after it are where they belong.
 void Builder::lost(SourceRange range) {
@@ -187,6 +201,11 @@ void Builder::lost(SourceRange range) {
         text.find("touch ") != std::string_view::npos || text.find("call ") != std::string_view::npos;
     if (isName(first) && text.starts_with('=') && !text.starts_with("==") && !finds)
       out.node = Assign{{range, first}, missing()};
+    add(std::move(out));
+    return;
+  }
+  if (closesItself(text)) {
+    out.node = ErrorStatement{};
     add(std::move(out));
     return;
   }

@@ -4,6 +4,8 @@
 #include "support/WriteInstead.h"
 #include "support/messages/Cycle.h"
 
+#include <fmt/format.h>
+
 namespace dotek::frontend::cycle {
 
 // ---- pieces ----------------------------------------------------------------------------------------------
@@ -236,6 +238,21 @@ Call Builder::call(Parser::CallContext& context) {
 
 void Builder::elsePart(SourceRange range, Parser::ExpressionContext* condition) {
   If* choice = open_.empty() ? nullptr : std::get_if<If>(&open_.back().statement.node);
+  // After the `end` of an `if`, which then is one too many.
+  if (std::vector<Statement>& before = statements(); !before.empty() && choice == nullptr) {
+    If* const closed = std::get_if<If>(&before.back().node);
+    if (closed != nullptr && closed->otherwise == nullptr) {
+      error<diag::ElseOutOfPlace>(
+          range,
+          fmt::format("the `end` of line {} has closed it; take that `end` out, as one `end` after the "
+                      "last part closes them all",
+                      lineOf(before.back().range.end)));
+      Open again{std::move(before.back()), range, "if"};
+      before.pop_back();
+      open_.push_back(std::move(again));
+      choice = std::get_if<If>(&open_.back().statement.node);
+    }
+  }
   if (choice == nullptr || choice->otherwise != nullptr) {
     error<diag::ElseOutOfPlace>(range, choice == nullptr ? "no `if` is open here"
                                                          : "the `if` has an `else` already, and nothing "

@@ -254,6 +254,7 @@ void Checker::run() {
   const auto end = static_cast<std::uint32_t>(sources_.file(file_.file).bytes().size());
   finish(known, file_.body.statements.empty() ? SourceRange{file_.file, end, end}
                                               : file_.body.statements.back().range);
+  if (!file_.hasErrorNodes) checkMotion(file_, diagnostics_);
   unread();
 }
 

@@ -59,7 +59,48 @@ std::optional<Fix> withUnit(const Expression& number, std::string_view unit) {
   return Fix{Fix::Applicability::Display, fmt::format("add `{}`", unit), {{after, fmt::format(" {}", unit)}}};
 }
 
+// The comparison that a condition ends with, or begins with; nullptr: neither is one.
+const Binary* comparisonIn(const Expression& condition) {
+  const auto* binary = std::get_if<Binary>(&inner(condition).node);
+  if (binary == nullptr) return nullptr;
+  if (binary->op != BinaryOp::And && binary->op != BinaryOp::Or)
+    return binary->op == BinaryOp::Is || binary->op == BinaryOp::IsNot ? binary : nullptr;
+  const Binary* const last = comparisonIn(*binary->right);
+  return last != nullptr ? last : comparisonIn(*binary->left);
+}
+
+// The number without unit that a product has on one of its sides; nullptr: there is none.
+const Expression* bareFactor(const Expression& expression) {
+  const auto* product = std::get_if<Binary>(&inner(expression).node);
+  if (product == nullptr || product->op != BinaryOp::Multiply) return nullptr;
+  for (const Expression* const side : {product->left.get(), product->right.get()})
+    if (std::holds_alternative<Number>(side->node) && isBareNumber(*side)) return side;
+  return nullptr;
+}
+
 } // namespace
+
+// `side is left or right`: what the whole comparison would be; "" where `right` is something else.
+std::string Checker::wholeComparison(const Binary& join) const {
+  const bool joins = join.op == BinaryOp::And || join.op == BinaryOp::Or;
+  const Binary* const asked = joins ? comparisonIn(*join.left) : nullptr;
+  const auto* subject = asked == nullptr ? nullptr : std::get_if<NameUse>(&inner(*asked->left).node);
+  const auto known = subject == nullptr ? symbols_.end() : symbols_.find(subject->name);
+  if (known == symbols_.end()) return "";
+  const Expression& other = inner(*join.right);
+  const Quantity& of = known->second.quantity;
+  const auto* name = std::get_if<NameUse>(&other.node);
+  const auto offers = [&] {
+    return name != nullptr && of.choices != nullptr &&
+           std::any_of(of.choices->begin(), of.choices->end(),
+                       [&](const Name& one) { return one.text == name->name; });
+  };
+  if (!offers() && !(std::holds_alternative<Number>(other.node) && of.isNumeric())) return "";
+  const bool no = asked->op == BinaryOp::IsNot;
+  const std::string_view is = no ? "is not" : "is";
+  return fmt::format("{} {} {} {} {} {} {}", subject->name, is, text(asked->right->range),
+                     no || join.op == BinaryOp::And ? "and" : "or", subject->name, is, text(other.range));
+}
 
 void Checker::unknownName(SourceRange range, const std::string& name) {
   if (const auto below = below_.find(name); below != below_.end()) {
@@ -147,6 +188,14 @@ void Checker::want(const Expression& expression, Quantity wanted, std::string_vi
   std::string kind = quantityText(found);
   if (wanted.base == Base::WorkOffset && isBareNumber(expression))
     kind += value >= 54 && value <= 59 ? fmt::format("; write `G{}`", written) : "; those are `G54` to `G59`";
+  // `90 * i`: the unit goes to the number.
+  if (const Expression* const factor = bareFactor(expression);
+      found.base == Base::Number && factor != nullptr && !unitFor(wanted).empty()) {
+    std::string right = written;
+    right.insert(text({expression.range.file, expression.range.begin, factor->range.end}).size(),
+                 fmt::format(" {}", unitFor(wanted)));
+    kind += fmt::format("; write `{}`", right);
+  }
   diagnostics_.report<diag::WrongValue>(expression.range, what, quantityText(wanted), written, kind);
 }
 
@@ -391,7 +440,14 @@ Quantity Checker::binary(const Expression& expression, const Binary& binary, con
     wantFlag(left, word, known);
     Known within = known;
     addGiven(left, binary.op == BinaryOp::And, within);
-    wantFlag(right, word, within);
+    const std::string whole = wholeComparison(binary);
+    const auto* before = std::get_if<Binary>(&inner(left).node);
+    const bool said = before != nullptr && !wholeComparison(*before).empty(); // `is left or right or front`
+    if (whole.empty())
+      wantFlag(right, word, within);
+    else if (!said)
+      diagnostics_.report<diag::HalfComparison>(right.range, binary.op == BinaryOp::And ? "and" : "or",
+                                                whole);
     return plain(Base::Flag);
   }
   const Quantity a = quantity(left, known);

@@ -28,20 +28,6 @@ Names common(const Names& a, const Names& b) {
   return out;
 }
 
-// A written number in mm, degrees, mm/min or seconds; nullopt: the value is computed, or missing.
-std::optional<double> constant(const ExpressionPtr& expression) {
-  if (expression == nullptr) return std::nullopt;
-  if (const auto* bracketed = std::get_if<Bracketed>(&expression->node)) return constant(bracketed->inner);
-  if (const auto* unary = std::get_if<Unary>(&expression->node); unary != nullptr) {
-    const std::optional<double> value = constant(unary->operand);
-    return value && unary->op == UnaryOp::Negate ? std::optional(-*value) : std::nullopt;
-  }
-  const auto* number = std::get_if<Number>(&expression->node);
-  if (number == nullptr) return std::nullopt;
-  const bool inch = number->unit == Unit::Inch || number->unit == Unit::InchPerMinute;
-  return inch ? number->value * 25.4 : number->value;
-}
-
 bool isWhole(double value) {
   return std::floor(value) == value;
 }
@@ -83,6 +69,19 @@ MaybeProbe probeAfter(const Block& block, ProbeState before) {
 }
 
 } // namespace
+
+std::optional<double> constant(const ExpressionPtr& expression) {
+  if (expression == nullptr) return std::nullopt;
+  if (const auto* bracketed = std::get_if<Bracketed>(&expression->node)) return constant(bracketed->inner);
+  if (const auto* unary = std::get_if<Unary>(&expression->node); unary != nullptr) {
+    const std::optional<double> value = constant(unary->operand);
+    return value && unary->op == UnaryOp::Negate ? std::optional(-*value) : std::nullopt;
+  }
+  const auto* number = std::get_if<Number>(&expression->node);
+  if (number == nullptr) return std::nullopt;
+  const bool inch = number->unit == Unit::Inch || number->unit == Unit::InchPerMinute;
+  return inch ? number->value * 25.4 : number->value;
+}
 
 void Checker::wantConstant(const ExpressionPtr& expression, bool (*takes)(double), std::string_view what,
                            std::string_view wanted) {
@@ -272,9 +271,11 @@ void Checker::loopBody(const Block& body, Known& known, bool runsOnce) {
 
 void Checker::block(const Block& all, Known& known) {
   ++depth_;
+  if (!file_.hasErrorNodes) slips(all);
   for (const Statement& one : all.statements) {
     if (known.ended) {
-      diagnostics_.report<diag::NeverReached>(one.range);
+      // Of a block without its `end` nobody knows where it is over.
+      if (!file_.hasErrorNodes) diagnostics_.report<diag::NeverReached>(one.range);
       break;
     }
     statement(one, known);

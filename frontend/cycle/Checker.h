@@ -26,6 +26,12 @@ struct Known {
 };
 Known joined(const Known& a, const Known& b);
 
+// A written number in mm, degrees, mm/min or seconds; nullopt: the value is computed, or missing.
+std::optional<double> constant(const ExpressionPtr& expression);
+
+// Reports moves that nothing watches, an end below the start, and a spindle that nobody has stopped.
+void checkMotion(const File& file, Diagnostics& diagnostics);
+
 class Checker {
 public:
   Checker(const File& file, const SourceMap& sources, Diagnostics& diagnostics);
@@ -49,6 +55,13 @@ private:
   void collect(const Block& block);
   static std::vector<std::string> wordsOf(std::string_view line);
   void collectDeclarations();
+
+  // ---- CheckSlips.cpp
+  void slips(const Block& block); // of the block alone
+  void neverRead(const std::vector<Statement>& all, std::size_t at);
+  void neverRuns(const For& loop, const Statement& statement);
+  void neverEnds(const While& loop);
+  void oneAnswer(const Expression& expression);
 
   // ---- CheckFlow.cpp
   void block(const Block& block, Known& known);
@@ -87,6 +100,7 @@ private:
   void wantAxis(const Expression& expression, Axis axis, std::string_view what, const Known& known);
   void mismatch(const Expression& left, const Quantity& a, const Expression& right, const Quantity& b,
                 SourceRange where, std::string_view doing);
+  std::string wholeComparison(const Binary& join) const;
   void unknownName(SourceRange range, const std::string& name);
   // A value of what nothing gave its name: of a touch without one, reported there.
   bool unnamedTouch(const Member& member);

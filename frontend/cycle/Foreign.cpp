@@ -389,8 +389,8 @@ bool beginsForeign(const Line& line) {
 
 std::string foreignForm(const Line& line) {
   if (line.size() == 0) return "";
-  for (const auto& form : {foreignPart, namedBefore, declared, called, given, commented, opened, moved,
-                           touched, set, parameter, computed, begun, foreignOrder})
+  for (const auto& form : {foreignPart, foreignValue, namedBefore, declared, called, given, commented, opened,
+                           moved, touched, set, parameter, computed, begun, foreignOrder})
     if (std::string message = form(line); !message.empty()) return message;
   return "";
 }

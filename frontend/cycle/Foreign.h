@@ -36,6 +36,8 @@ std::string foreignForm(const Line& line);
 // Of a part that is known wherever it is, and of parts in a wrong place; see foreignForm().
 std::string foreignPart(const Line& line);
 std::string foreignOrder(const Line& line);
+// Of a value or a coordinate as drawings and G code have it.
+std::string foreignValue(const Line& line);
 // `cm`, `inch`, `ms`, ..
 bool isForeignUnit(std::string_view word);
 

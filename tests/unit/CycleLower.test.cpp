@@ -427,13 +427,13 @@ TEST_CASE("cycle lowering: coordinates from before a set and from after it are n
   CHECK(codes(set + "touch x by 6 mm -> bb\nwide = bb.at - aa.at\n") == "coordinates-mixed 10 ");
   CHECK(codes(set + "touch x by 6 mm -> bb\nwide = 0 mm\nif bb.at > aa.at then\n  wide = 1 mm\nend\n") ==
         "coordinates-mixed 11 ");
-  CHECK(codes(set + "wide = 0 mm\nmove to x aa.at - 5 mm\n") == "coordinates-mixed 10 ");
+  CHECK(codes(set + "wide = 0 mm\nprotected move to x aa.at - 5 mm\n") == "coordinates-mixed 10 ");
   // Distances stay, also from both sides of the `set`; other axes stay; before it all is one system.
   CHECK(codes("touch x by -6 mm -> bb\nwide = aa.at - bb.at\n" + set +
               "touch x by 7 mm -> cc\n"
               "touch x by -7 mm -> dd\nwide = (cc.at - dd.at) - wide\n")
             .empty());
-  CHECK(codes(set + "touch y by 6 mm -> bb\nmove to y bb.at - 9 mm\nwide = aa.at\n").empty());
+  CHECK(codes(set + "touch y by 6 mm -> bb\nprotected move to y bb.at - 9 mm\nwide = aa.at\n").empty());
   CHECK(codes("touch x by 6 mm -> bb\nwide = bb.at - aa.at\n" + set).empty());
 }
 

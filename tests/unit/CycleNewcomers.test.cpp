@@ -279,4 +279,161 @@ TEST_CASE("cycles: a name with a choice goes to another one of the same list") {
   CHECK(found == "`other` is none of the names that may be chosen: `left`, `right`\n");
 }
 
+TEST_CASE("cycles: values and coordinates as drawings and G code have them are one message each") {
+  constexpr Slip kSlips[] = {
+      {"far = 5 [mm]", "write `5 mm`"},
+      {"far = 5 (mm)", "write `5 mm`"},
+      {"parameter far : length = 5 [mm] \"Far\"", "write `5 mm`"},
+      {"parameter share : ratio = 50 % \"Share\"", "write `0.5`"},
+      {"size = gap * 12.5%", "write `0.125`"},
+      {"parameter most : length = +/- 0.1 mm \"Tolerance\"", "write `0.1 mm`"},
+      {"if edge.error > +/- gap then\nend", "`abs(error) > tolerance`"},
+      {"protected move to X10 Y20", "write `protected move to x 10 mm, y 20 mm`"},
+      {"protected move X10 Y-20.5", "write `protected move to x 10 mm, y -20.5 mm`"},
+      {"rapid move to X10. mm, Z+5.", "write `rapid move to x 10 mm, z 5 mm`"},
+      {"move by A90", "write `move by a 90 deg`"},
+      {"feed move by z -2 mm F 200", "write `feed move by z -2 mm feed 200 mm/min`"},
+      {"feed move by z -2 mm F200", "write `feed move by z -2 mm feed 200 mm/min`"},
+      {"feed move by Z-2 F200.", "write `feed move by z -2 mm feed 200 mm/min`"},
+      {"alarm \"Off by \" + edge.error", "`report \"Off by \" measured edge.error`"},
+      {"stop \"Off by \", edge.error", "`report \"Off by \" measured edge.error`"},
+      {"protected move by x gap * cos(90 * 2)", "write `90 deg * 2`"},
+      {"protected move by x gap * cos(2 * 90)", "write `2 deg * 90`"},
+      {"protected move by x 2 * 3", "write `2 mm * 3`"},
+      {"if size > gap then alarm \"Far\" end", "write `alarm` in a line of its own"},
+      {"if size > gap then alarm \"Far\"; end // far", "write `alarm` in a line of its own"},
+      {"if size > gap then\n  stop \"Far\"\nend\nelse if size > 1 mm then\n  stop \"Near\"\nend",
+       "the `end` of line 10 has closed it; take that `end` out"},
+      {"if size > gap then\n  stop \"Far\"\nend\nelse\n  stop \"Near\"\nend",
+       "the `end` of line 10 has closed it; take that `end` out"},
+      {"far = 1\nif far is 1 or 2 then\n  stop \"Far\"\nend", "write `far is 1 or far is 2`"},
+      {"far = 1\nif far is not 1 or 2 then\n  stop \"Far\"\nend", "write `far is not 1 and far is not 2`"},
+  };
+  for (const Slip& slip : kSlips) {
+    CAPTURE(slip.line);
+    int count = 0;
+    const std::string found = errorsOf(std::string(slip.line) + "\n", count);
+    CAPTURE(found);
+    CHECK(count == 1);
+    CHECK(found.find(slip.says) != std::string::npos);
+  }
+}
+
+TEST_CASE("cycles: a choice on one side of `or` is one message, and a missing `end` no second one") {
+  const auto said = [](const std::string& text) {
+    SourceMap sources;
+    Diagnostics diagnostics;
+    const cycle::File file = cycle::parse(sources.add(SourceFile("one.cycle", text, Encoding::Utf8)), sources,
+                                          Limits(), diagnostics);
+    cycle::check(file, sources, diagnostics);
+    std::string out;
+    for (const Diagnostic& one : diagnostics.all())
+      out += one.message + " [" + std::string(one.code) + "]\n";
+    return out;
+  };
+  const std::string sides = "cycle one \"One\"\nparameter side : choice of left, right, front = left \"Side\"\n"
+                            "spindle off\nprobe on\n";
+  CHECK(said(sides + "if side is left or right or front then\n  touch x by 5 mm\nend\nprobe off\n") ==
+        "`or` joins two whole comparisons; write `side is left or side is right` [half-comparison]\n");
+  CHECK(said("cycle one \"One\"\nspindle off\nprobe on\ntouch x by 5 mm -> far else\n  alarm \"Not there\"\n"
+             "probe off\n") ==
+        "this `touch .. else` has no `end`; write `end` where what depends on it is over "
+        "[block-not-closed]\n");
+}
+
+TEST_CASE("cycles: what hardly anybody means is a warning, once, and what looks like it is none") {
+  const auto warned = [](const std::string& lines) {
+    SourceMap sources;
+    Diagnostics diagnostics;
+    const std::string text = "cycle one \"One\"\n"
+                             "parameter gap  : length = 5 mm \"Gap\"\n"
+                             "result    size : length        \"Size\"\n"
+                             "spindle off\nprobe on\nsize = gap\nk = 0\n" +
+                             lines + "probe off\n";
+    const cycle::File file = cycle::parse(sources.add(SourceFile("one.cycle", text, Encoding::Utf8)), sources,
+                                          Limits(), diagnostics);
+    cycle::check(file, sources, diagnostics);
+    std::string out;
+    for (const Diagnostic& one : diagnostics.all())
+      out += std::string(one.code) + ' ';
+    return out;
+  };
+  const std::string touch = "touch x by gap -> side\n";
+  struct Lines {
+    std::string text;
+    const char* warnings;
+  };
+  for (const Lines& one : {
+           Lines{touch + "touch x by -gap -> side\nsize = side.at\n", "found-twice "},
+           Lines{touch + "size = side.at\ntouch x by -gap -> side\nsize = size - side.at\n", ""},
+           Lines{touch + "if size > 3 mm then\n  size = side.at\nend\ntouch x by -gap -> side\n", ""},
+           Lines{touch + "touch y by side.error + gap -> side\nsize = side.at\n", ""},
+           Lines{"for i = 5 to 1\n  " + touch + "end\n", "loop-never-runs "},
+           Lines{"for i = 1 to 5 step -1\n  " + touch + "end\n", "loop-never-runs "},
+           Lines{"for i = 5 to 1 step -1\n  " + touch + "end\n", ""},
+           Lines{"for i = 1 to 1\n  " + touch + "end\n", ""},
+           Lines{"while k < 3 at most 10 times\n  " + touch + "end\n", "loop-unchanged "},
+           Lines{"while k < 3 at most 10 times\n  " + touch + "  k = k + 1\nend\n", ""},
+           Lines{touch + "while side.error > 1 mm at most 10 times\n  " + touch + "end\n", ""},
+           Lines{touch + "if abs(side.error) > -0.1 mm then\n  stop \"Far\"\nend\n", "compared-always "},
+           Lines{touch + "if -0.1 mm < abs(side.error) then\n  stop \"Far\"\nend\n", "compared-always "},
+           Lines{touch + "if abs(side.error) < 0 mm then\n  stop \"Far\"\nend\n", "compared-always "},
+           Lines{touch + "if abs(side.error) >= 0 mm then\n  stop \"Far\"\nend\n", "compared-always "},
+           Lines{touch + "if abs(side.error) > 0 mm then\n  stop \"Far\"\nend\n", ""},
+           Lines{touch + "if side.error > -0.1 mm then\n  stop \"Far\"\nend\n", ""},
+           Lines{touch + "size = side.at - side.at\n", "compared-always "},
+           Lines{touch + "size = side.at - gap\n", ""},
+       }) {
+    CAPTURE(one.text);
+    CHECK(warned(one.text) == one.warnings);
+  }
+}
+
+TEST_CASE(
+    "cycles: moves that nothing watches, an end below the start and a spindle that turns are warnings") {
+  const auto warned = [](const std::string& lines, const std::string& before) {
+    SourceMap sources;
+    Diagnostics diagnostics;
+    const std::string text = "cycle one \"One\"\nparameter low : length = 5 mm \"Low\"\n" + before +
+                             "probe on\n" + lines + "probe off\nif low > 9 mm then\n  alarm \"Low\"\nend\n";
+    const cycle::File file = cycle::parse(sources.add(SourceFile("one.cycle", text, Encoding::Utf8)), sources,
+                                          Limits(), diagnostics);
+    cycle::check(file, sources, diagnostics);
+    std::string out;
+    for (const Diagnostic& one : diagnostics.all())
+      out += std::string(one.code) + ' ';
+    return out;
+  };
+  struct Lines {
+    const char* text;
+    const char* warnings;
+  };
+  for (const Lines& one : {
+           Lines{
+               "protected move by z -low\ntouch x by 5 mm\nrapid move by x 30 mm\nprotected move to start\n",
+               "move-unwatched "},
+           Lines{"protected move by z -low\nfeed move by y 2 mm feed 100 mm/min\nprotected move to start\n",
+                 "move-unwatched "},
+           Lines{"protected move by z -low\ntouch x by 5 mm\nmove to start\n", "move-unwatched "},
+           Lines{
+               "protected move by z -low\ntouch x by 5 mm\nprotected move by z low\nrapid move by x 30 mm\n",
+               ""},
+           Lines{"protected move by z -low\ntouch x by 5 mm\nrapid move by z low\nrapid move by x 30 mm\n",
+                 ""},
+           Lines{"rapid move by x 30 mm\nprotected move by z -low\nprotected move to start\n", ""},
+           Lines{"protected move by z -low\ntouch x by 5 mm\n", "ends-lower "},
+           Lines{"protected move by z -low\ntouch x by 5 mm\nif low > 3 mm then\n  protected move to "
+                 "start\nend\n",
+                 "ends-lower "},
+           Lines{"protected move by z -2 * low\ntouch x by 5 mm\nprotected move to z start.z\n", ""},
+           Lines{"rapid move by z low\nrapid move by x 9 mm\nrapid move by z -low\n", ""},
+           Lines{"touch x by 5 mm\n", ""},
+       }) {
+    CAPTURE(one.text);
+    CHECK(warned(one.text, "spindle off\n") == one.warnings);
+  }
+  CHECK(warned("touch x by 5 mm\n", "") == "spindle-unstopped ");
+  CHECK(warned("call bore diameter = 20 mm\n", "").find("spindle-unstopped") == std::string::npos);
+}
+
 } // namespace dotek::tests
