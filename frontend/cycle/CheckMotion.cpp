@@ -125,7 +125,7 @@ void checkMotion(const File& file, Diagnostics& diagnostics) {
     const auto* probe = std::get_if<ProbeSwitch>(&one.node);
     if (probe != nullptr && probe->on && !first) first = one.range;
   });
-  if (first && measures && !needs && !stopped) diagnostics.report<diag::SpindleNotStopped>(*first);
+  if (first && measures && !needs && !stopped) diagnostics.report<diag::SpindleUnstopped>(*first);
 }
 
 } // namespace dotek::frontend::cycle
