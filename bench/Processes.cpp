@@ -5,6 +5,7 @@
 #include "bench/Server.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -132,6 +133,40 @@ void writeRows(const fs::path& path, int moves) {
   out << "G0 Z50.\nM30\n%\n";
 }
 
+// What a CAM prints for a mould: passes of short moves with three decimals, a tool change now and then.
+void writeMould(const fs::path& path, std::uint64_t bytes) {
+  std::ofstream out(path);
+  std::string text = "%\nO0001\nG21 G17 G40 G49 G80 G90\n";
+  std::uint64_t written = 0;
+  std::uint32_t random = 7;
+  const auto step = [&](int most) {
+    random = random * 1664525 + 1013904223;
+    return static_cast<int>(random >> 16) % (2 * most + 1) - most;
+  };
+  int x = 0, y = 0, z = -10000; // in thousandths
+  for (int move = 0; written + text.size() < bytes; ++move) {
+    if (move % 60000 == 0)
+      text +=
+          fmt::format("G0 Z50.\nM5\nT{0} M6\nG54 G90 G0 X0. Y0. S12000 M3\nG43 Z50. H{0}\nM8\nZ5.\nG1 Z-10. "
+                      "F800.\nF3000.\n",
+                      move / 60000 % 40 + 1);
+    x += step(1000);
+    z += step(200);
+    if (move % 3 == 0) y += step(100);
+    if (move % 200 == 199)
+      text += fmt::format("G0 Z5.\nX{:.3f} Y{:.3f}\nG1 Z{:.3f}\n", x / 1000., y / 1000., z / 1000.);
+    else if (move % 3 == 0)
+      text += fmt::format("X{:.3f} Y{:.3f} Z{:.3f}\n", x / 1000., y / 1000., z / 1000.);
+    else
+      text += fmt::format("X{:.3f} Z{:.3f}\n", x / 1000., z / 1000.);
+    if (text.size() < (1U << 16)) continue;
+    out << text;
+    written += text.size();
+    text.clear();
+  }
+  out << text << "G0 Z50.\nM5\nM30\n%\n";
+}
+
 // Pictures of a run: of a macro that touches a part five times, and of a long program without a part.
 void addPictures(std::vector<Case>& out, const std::string& dotek, const fs::path& scratch) {
   const Command bore = {dotek,
@@ -256,5 +291,15 @@ int main(int argc, char** argv) {
       measureChanges(dotek, "examples/surface-x/ToolPath.mac", "dotek-gibbs", runs));
   row({"lsp, macro programs of 5,000 lines: the same", {}, {0}, {}, {}},
       measureChanges(dotek, (scratch / "macros.nc").string(), "dotek-macrob", runs));
+  const fs::path mould = scratch / "mould.nc";
+  writeMould(mould, 100'000'000);
+  const int few = std::min(runs, 5);
+  const Figures counted = measure({"/usr/bin/wc", "-l", mould.string()}, few);
+  const Figures linted = measure({dotek, "lint", mould.string()}, few);
+  row({"wc -l, 100 MB of a CAM", {}, {0}, {}, {}}, counted);
+  row({"lint, the same", {}, {0, 1}, 500, 300}, linted);
+  fmt::print("\nlint of 100 MB of a CAM: {:.0f} MB/s, {:.1f} times wc -l\n",
+             static_cast<double>(fs::file_size(mould)) / 1000 / linted.median,
+             linted.median / counted.median);
   return broken || (check && missed) ? 1 : 0;
 }

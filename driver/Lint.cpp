@@ -365,8 +365,8 @@ private:
       const stdlib::Control* const control =
           settings.control.empty() ? nullptr : session_.control(settings.control, settings.probe);
       const auto& programs = compilation_.addPrograms(
-          *id, control == nullptr ? frontend::macrob::Forms{} : frontend::macrob::formsOf(*control));
-      if (programs.programs.empty())
+          *id, control == nullptr ? macrob::Forms{} : macrob::formsOf(*control), macrob::Keep::Summary);
+      if (programs.programs.empty() && !programs.tooLarge)
         session_.diagnostics().report<diag::NoProgram>({*id, 0, 0}, inputName(path), "checked");
       return;
     }

@@ -82,10 +82,11 @@ const gibbs::DefineData& Compilation::addDefineData(FileId file) {
   return defines_.emplace_back(gibbs::parseDefineData(file, contextOf(session_)));
 }
 
-const macrob::File& Compilation::addPrograms(FileId file, macrob::Forms forms) {
+const macrob::File& Compilation::addPrograms(FileId file, macrob::Forms forms, macrob::Keep keep) {
   const macrob::Text text = textOf(file, session_);
   return programs_.emplace_back(macrob::parse(file, session_.sources(), session_.limits(),
-                                              session_.diagnostics(), text, macrob::Reader::Fast, forms));
+                                              session_.diagnostics(), text, macrob::Reader::Fast, forms,
+                                              keep));
 }
 
 CycleFolder& Compilation::addFile(const std::string& path) {

@@ -54,7 +54,8 @@ public:
   const frontend::gibbs::Macro& addMacro(FileId file);
   const frontend::gibbs::Dialog& addDialog(FileId file);
   const frontend::gibbs::DefineData& addDefineData(FileId file);
-  const frontend::macrob::File& addPrograms(FileId file, frontend::macrob::Forms forms = {});
+  const frontend::macrob::File& addPrograms(FileId file, frontend::macrob::Forms forms = {},
+                                            frontend::macrob::Keep keep = frontend::macrob::Keep::All);
 
   // The same, in the order in which they were added.
   const std::deque<std::shared_ptr<const frontend::compost::Program>>& progs() const { return progs_; }

@@ -111,6 +111,10 @@ std::optional<FileId> Session::read(const std::string& path, Encoding fallback) 
     text = std::move(whole_.extract(whole).mapped());
   else
     text = bytes(path, diagnostics_);
+  if (text && text->size() > mostBytes(options_.limits) && !holdsPrograms(path)) {
+    reportTooLarge(path, options_.limits, diagnostics_);
+    text.reset();
+  }
   std::optional<FileId> id;
   if (text)
     id = addText(inputName(path), std::move(*text), fallback, options_.encoding, sources_, diagnostics_);
@@ -137,13 +141,20 @@ const std::string* Session::buffer(const std::string& path) const {
   return found == options_.buffers->end() ? nullptr : &found->second;
 }
 
+bool Session::holdsPrograms(const std::string& path) const {
+  const auto told = kinds_.find(path);
+  return told != kinds_.end() && told->second.kind == InputKind::Nc;
+}
+
 std::optional<std::string> Session::bytes(const std::string& path, Diagnostics& diagnostics) {
   std::optional<std::string> out;
   if (const std::string* const held = buffer(path))
     out = *held;
+  else if (isStream(path))
+    out = options_.streams->read(path, options_.limits, diagnostics);
   else
-    out = isStream(path) ? options_.streams->read(path, options_.limits, diagnostics)
-                         : readBytes(path, options_.limits, diagnostics);
+    out = holdsPrograms(path) ? readPrograms(path, options_.limits, diagnostics)
+                              : readBytes(path, options_.limits, diagnostics);
   if (out) blankTape(*out);
   return out;
 }
@@ -172,7 +183,7 @@ const Recognition* Session::kindOf(const std::string& path, Diagnostics& diagnos
       found = at->second == "cps" ? Recognition{std::nullopt, std::string(kPostInput)}
                                   : Recognition{kindByName(at->second), "the editor"};
   // Of a longer file only the beginning was read.
-  if (found.kind && !whole && text->size() < kRecognisedBytes && text->size() <= options_.limits.inputBytes)
+  if (found.kind && !whole && text->size() < kRecognisedBytes && text->size() <= mostBytes(options_.limits))
     whole_.emplace(path, std::move(*text));
   return &kinds_.emplace(path, std::move(found)).first->second;
 }

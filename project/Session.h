@@ -70,6 +70,8 @@ public:
   ReadBounds bounds(const std::string& folder) const;
 
 private:
+  // Recognised as NC programs, which may be large.
+  bool holdsPrograms(const std::string& path) const;
   // What an editor holds of the file; nullptr: nothing.
   const std::string* buffer(const std::string& path) const;
 

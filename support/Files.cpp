@@ -53,6 +53,9 @@ std::optional<std::string> readMost(const std::string& path, std::size_t most, D
   const OpenFile file = openInput(path, diagnostics);
   if (!file) return std::nullopt;
   std::string bytes;
+  std::error_code error;
+  // A guess: the size of a pipe is not known, and a file may grow.
+  if (const std::uintmax_t size = fs::file_size(path, error); !error && size <= most) bytes.reserve(size);
   char buffer[65536];
   while (bytes.size() <= most) {
     const std::size_t n = std::fread(buffer, 1, sizeof buffer, file.get());
@@ -66,12 +69,30 @@ std::optional<std::string> readMost(const std::string& path, std::size_t most, D
 
 } // namespace
 
+namespace {
+
+std::optional<std::string> readUpTo(const std::string& path, std::size_t most, const Limits& limits,
+                                    Diagnostics& diagnostics) {
+  std::optional<std::string> bytes = readMost(path, most, diagnostics);
+  if (!bytes || bytes->size() <= most) return bytes;
+  reportTooLarge(path, limits, diagnostics);
+  return std::nullopt;
+}
+
+} // namespace
+
 std::optional<std::string> readBytes(const std::string& path, const Limits& limits,
                                      Diagnostics& diagnostics) {
-  std::optional<std::string> bytes = readMost(path, limits.inputBytes, diagnostics);
-  if (!bytes || bytes->size() <= limits.inputBytes) return bytes;
-  diagnostics.report<diag::FileTooLarge>({}, inputName(path), limits.inputBytes);
-  return std::nullopt;
+  return readUpTo(path, mostBytes(limits), limits, diagnostics);
+}
+
+std::optional<std::string> readPrograms(const std::string& path, const Limits& limits,
+                                        Diagnostics& diagnostics) {
+  return readUpTo(path, limits.keptBytes / kKeptOfText, limits, diagnostics);
+}
+
+void reportTooLarge(const std::string& path, const Limits& limits, Diagnostics& diagnostics) {
+  diagnostics.report<diag::FileTooLarge>({}, inputName(path), limits.keptBytes);
 }
 
 std::optional<std::string> readBeginning(const std::string& path, std::size_t most,
@@ -145,7 +166,7 @@ std::optional<std::string> StreamInputs::read(const std::string& path, const Lim
   const std::string key = standard ? std::string(kStandardInput) : path;
   const std::lock_guard lock(mutex_);
   if (const auto known = known_.find(key); known != known_.end()) return known->second;
-  std::optional<std::string> bytes = readBytes(path, limits, diagnostics);
+  std::optional<std::string> bytes = readPrograms(path, limits, diagnostics);
   if (bytes) known_.emplace(key, *bytes);
   return bytes;
 }

@@ -13,9 +13,22 @@
 
 namespace dotek {
 
+// Most bytes of an input of which all becomes a tree, whatever is in it: so much may a byte take.
+inline constexpr std::size_t kKeptOfByte = 256;
+inline std::size_t mostBytes(const Limits& limits) {
+  return limits.keptBytes / kKeptOfByte;
+}
+// The same of NC programs, whose reader counts what it keeps: their text, what it works on, and where lines
+// begin.
+inline constexpr std::size_t kKeptOfText = 3;
+
 // Bytes of a file, a pipe or a device, whether its size is known or not; of standard input for "-". nullopt
-// with a diagnostic if it cannot be read or is larger than the limit.
+// with a diagnostic if it cannot be read or is larger than mostBytes.
 std::optional<std::string> readBytes(const std::string& path, const Limits& limits, Diagnostics& diagnostics);
+// As readBytes, of what may be NC programs: what else it is, is to be held to mostBytes.
+std::optional<std::string> readPrograms(const std::string& path, const Limits& limits,
+                                        Diagnostics& diagnostics);
+void reportTooLarge(const std::string& path, const Limits& limits, Diagnostics& diagnostics);
 
 // At most `most` bytes from the beginning of a file; nullopt with a diagnostic.
 std::optional<std::string> readBeginning(const std::string& path, std::size_t most, Diagnostics& diagnostics);
@@ -44,7 +57,7 @@ std::string inputName(const std::string& path);
 // threads.
 class StreamInputs {
 public:
-  // As readBytes, of a stream.
+  // As readPrograms, of a stream.
   std::optional<std::string> read(const std::string& path, const Limits& limits, Diagnostics& diagnostics);
 
 private:

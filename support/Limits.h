@@ -9,7 +9,7 @@ namespace dotek {
 
 // X(member, name, default, what it bounds)
 #define DOTEK_LIMITS(X)                                                                                      \
-  X(inputBytes, "input-bytes", 4u << 20, "size of one input file, in bytes")                                 \
+  X(keptBytes, "kept-bytes", 1u << 30, "memory that the text of one input and its tree may take, in bytes")  \
   X(lineBytes, "line-bytes", 16384, "length of one line of a macro, a dialog or a Prog, in bytes")           \
   X(lineTokens, "line-tokens", 1000, "tokens on one line of a macro, a dialog or a Prog")                    \
   X(nesting, "nesting", 64, "depth of brackets and of IF and FOR blocks")                                    \

@@ -156,6 +156,15 @@ struct Program {
   bool closed = false;             // `%` or the header of another program follows: the text is all of it
 };
 
+// All blocks, or of long stretches of plain moves only those that findings can depend on (Stretch.h).
+enum class Keep : std::uint8_t { All, Summary };
+
+// Plain moves that lint leaves out of the tree.
+struct LeftOut {
+  std::uint64_t blocks = 0;
+  std::uint64_t lengths = 0; // their X, Y and Z other than 0, all with a point
+};
+
 struct File {
   FileId file = kNoFile;
   bool markFirst = false; // `%` before the first program
@@ -164,6 +173,9 @@ struct File {
   std::vector<Program> programs;
   std::vector<SourceRange> legends; // text of drawings between the blocks, left out of the programs
   bool hasErrors = false;           // a block is unread or repaired, or limits cut something
+  LeftOut leftOut;                  // by Keep::Summary
+  // It would keep more than the limit: reported, and nothing was read.
+  bool tooLarge = false;
 };
 
 } // namespace dotek::frontend::macrob

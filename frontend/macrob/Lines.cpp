@@ -2,6 +2,7 @@
 
 #include "frontend/macrob/Legend.h"
 #include "frontend/macrob/Remarks.h"
+#include "frontend/macrob/Stretch.h"
 #include "support/Ascii.h"
 #include "support/LineEnds.h"
 #include "support/messages/Common.h"
@@ -29,8 +30,11 @@ bool isOperator(char c) {
 }
 class Splitter {
 public:
-  Splitter(FileId file, const SourceMap& sources, const Limits& limits, Diagnostics& diagnostics, Text text)
-      : file_(file), limits_(limits), diagnostics_(diagnostics), text_(text) {
+  Splitter(FileId file, const SourceMap& sources, const Limits& limits, Diagnostics& diagnostics, Text text,
+           Keep keep)
+      : file_(file), limits_(limits), diagnostics_(diagnostics), text_(text),
+        summary_(keep == Keep::Summary && text == Text::Program),
+        jumps_(summary_ && mayJump(sources.file(file).bytes())), modes_(jumps_) {
     out_.bytes = sources.file(file).bytes();
   }
 
@@ -65,12 +69,37 @@ private:
 
   // ---- one block
 
+  // Takes a stretch of plain moves. false: none begins here.
+  bool stretch() {
+    if (!summary_ || !modes_.absolute() || legendBefore_ || at_ < looked_) return false;
+    const Stretch found(bytes(), at_, !jumps_);
+    looked_ = found.looked();
+    if (found.end() == at_) return false;
+    out_.stretches.push_back(range(at_, found.end()));
+    out_.leftOut.blocks += found.leftOut().blocks;
+    out_.leftOut.lengths += found.leftOut().lengths;
+    for (const TextLine& one : found.kept()) {
+      const std::size_t begin = skipBlanks(one.begin, one.end);
+      std::size_t end = one.end;
+      while (end > begin && (isBlank(bytes()[end - 1]) || isEnd(bytes()[end - 1])))
+        --end;
+      Line line;
+      line.range = range(begin, end);
+      line.end = static_cast<std::uint32_t>(one.end);
+      out_.lines.push_back(std::move(line));
+    }
+    at_ = found.end();
+    return true;
+  }
+
   void line() {
+    if (stretch()) return;
     Line line;
     std::size_t begin = at_;
     std::size_t end = at_;
     if (!tooLong(line, begin)) {
       end = cut(line, begin);
+      if (summary_) followModes(begin, end);
       begin = skipBlanks(begin, end);
       while (end > begin && isBlank(bytes()[end - 1]))
         --end;
@@ -88,6 +117,13 @@ private:
     }
     line.end = static_cast<std::uint32_t>(at_);
     out_.lines.push_back(std::move(line));
+  }
+
+  void followModes(std::size_t begin, std::size_t end) {
+    const std::size_t first = skipBlanks(begin, end);
+    const char c = first < end ? upperCase(bytes()[first]) : '\0';
+    modes_.pass(std::string_view(bytes()).substr(begin, end - begin),
+                c == 'O' || c == ':' || c == '<' || c == '%');
   }
 
   bool tooLong(Line& line, std::size_t begin) {
@@ -337,7 +373,10 @@ private:
   Diagnostics& diagnostics_;
   Text text_;
   Lines out_;
+  bool summary_, jumps_;
+  TextModes modes_;
   std::size_t at_ = 0;
+  std::size_t looked_ = 0; // no stretch begins before it
   bool legendBefore_ = false;
   bool told_ = false;
   std::size_t remarks_ = 0;
@@ -350,8 +389,8 @@ private:
 } // namespace
 
 Lines splitLines(FileId file, const SourceMap& sources, const Limits& limits, Diagnostics& diagnostics,
-                 Text text) {
-  return Splitter(file, sources, limits, diagnostics, text).run();
+                 Text text, Keep keep) {
+  return Splitter(file, sources, limits, diagnostics, text, keep).run();
 }
 
 } // namespace dotek::frontend::macrob

@@ -30,6 +30,8 @@ struct Lines {
   bool markLast = false;
   SourceRange leader;
   std::vector<SourceRange> legends;
+  std::vector<SourceRange> stretches; // of which lines are left out
+  LeftOut leftOut;
   // The file's bytes with headers, `%`, legends, open comments and whatever else is no block made blank;
   // places are those of the file. A block broken over two lines is on one.
   std::string bytes;
@@ -37,6 +39,6 @@ struct Lines {
 
 // Of a `text` that is no listing, texts of drawings are found (Line::legend) and left where they are.
 Lines splitLines(FileId file, const SourceMap& sources, const Limits& limits, Diagnostics& diagnostics,
-                 Text text);
+                 Text text, Keep keep = Keep::All);
 
 } // namespace dotek::frontend::macrob

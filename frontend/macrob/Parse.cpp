@@ -7,6 +7,7 @@
 #include "frontend/macrob/Scan.h"
 #include "frontend/macrob/Slips.h"
 #include "frontend/macrob/Targets.h"
+#include "support/Files.h"
 #include "support/messages/Common.h"
 #include "support/messages/MacroB.h"
 
@@ -350,12 +351,47 @@ void repairListing(FileId file, std::size_t from, Diagnostics& diagnostics) {
 
 } // namespace
 
+namespace {
+
+// Memory that a file takes, as measured for blocks of many kinds: the tree, and what rules and the IR make of
+// it.
+class Kept {
+public:
+  Kept(std::size_t text, std::uint64_t limit) : bytes_(kKeptOfText * text), limit_(limit) {}
+
+  // `length`: of the line. `scanned`: the block, where the grammar is not needed.
+  void add(std::size_t length, const Block* scanned) {
+    constexpr std::uint64_t kBlock = 500, kWord = 400, kByte = 60;
+    constexpr std::uint64_t kGrammarByte = 240; // each may be a token and two nodes
+    const auto* words = scanned == nullptr ? nullptr : std::get_if<Words>(&scanned->body);
+    bytes_ += kBlock + (words != nullptr     ? kWord * words->words.size()
+                        : scanned != nullptr ? kByte * length
+                                             : kGrammarByte * length);
+  }
+  bool isTooMuch() const { return bytes_ > limit_; }
+
+private:
+  std::uint64_t bytes_, limit_;
+};
+
+} // namespace
+
 File parse(FileId file, const SourceMap& sources, const Limits& limits, Diagnostics& diagnostics, Text text,
-           Reader reader, Forms forms) {
+           Reader reader, Forms forms, Keep keep) {
   const std::size_t reported = diagnostics.all().size();
-  Lines lines = splitLines(file, sources, limits, diagnostics, text);
   File out;
   out.file = file;
+  Kept kept(sources.file(file).bytes().size(), limits.keptBytes);
+  const auto tooLarge = [&](SourceRange from) {
+    diagnostics.report<diag::FileTooLarge>(from, sources.file(file).name(), limits.keptBytes);
+    File none;
+    none.file = file;
+    none.hasErrors = none.tooLarge = true;
+    return none;
+  };
+  if (kept.isTooMuch()) return tooLarge({file, 0, 0});
+  Lines lines = splitLines(file, sources, limits, diagnostics, text, keep);
+  out.leftOut = lines.leftOut;
   out.markFirst = lines.markFirst;
   out.markLast = lines.markLast;
   out.leader = lines.leader;
@@ -370,6 +406,8 @@ File parse(FileId file, const SourceMap& sources, const Limits& limits, Diagnost
     if (whole && reader == Reader::Fast)
       blocks[i] = scanBlock(std::string_view(lines.bytes).substr(line.range.begin, length), line.range,
                             limits, text == Text::Program);
+    kept.add(length, blocks[i] ? &*blocks[i] : nullptr);
+    if (kept.isTooMuch()) return tooLarge({file, line.range.begin, line.range.begin + 1});
     if (!blocks[i]) {
       all = false;
       continue;
@@ -378,6 +416,8 @@ File parse(FileId file, const SourceMap& sources, const Limits& limits, Diagnost
     std::fill(lines.bytes.begin() + line.range.begin, lines.bytes.begin() + line.end, ' ');
   }
   if (!all) {
+    for (const SourceRange& stretch : lines.stretches)
+      std::fill(lines.bytes.begin() + stretch.begin, lines.bytes.begin() + stretch.end, ' ');
     GrammarReader grammar(file, sources, limits, diagnostics, lines, text, forms);
     for (std::size_t i = 0; i < blocks.size(); ++i)
       if (!blocks[i]) blocks[i] = grammar.read(i);

@@ -21,9 +21,10 @@ enum class Text : std::uint8_t { Program, Listing };
 // Parses one file of the map. Never fails: problems go to `diagnostics`, at most one error a block; blocks
 // that cannot be read become `Unread`. A misprint with one certain repair is reported with it, and the tree
 // is that of the repaired block. An error of a block that a listing would be read without has a note.
-// `forms`: of the control, where one is named.
+// `forms`: of the control, where one is named. A file of which more than `kept-bytes` would be kept is one
+// error, and File::tooLarge.
 File parse(FileId file, const SourceMap& sources, const Limits& limits, Diagnostics& diagnostics,
-           Text text = Text::Program, Reader reader = Reader::Fast, Forms forms = {});
+           Text text = Text::Program, Reader reader = Reader::Fast, Forms forms = {}, Keep keep = Keep::All);
 
 // `dump --stage tokens`: one token a line: line:column, kind, text.
 std::string dumpTokens(FileId file, const SourceMap& sources, const Limits& limits, Diagnostics& diagnostics,

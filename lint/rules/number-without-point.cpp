@@ -50,7 +50,7 @@ void check(const Project& project, Report& report) {
     for (const ir::Program& program : nc.lowered->programs)
       for (const ir::ProgramStatement& statement : program.body)
         collect(statement, with, without);
-    if (without.empty() || with.size() < kTimes * without.size()) continue;
+    if (without.empty() || with.size() + nc.file->leftOut.lengths < kTimes * without.size()) continue;
     for (const Number& number : without)
       report.at(
           number.range,

@@ -1,4 +1,5 @@
 #include "stdlib/DataFiles.h"
+#include "support/Files.h"
 
 #include "DataFolder.h"
 
@@ -42,7 +43,7 @@ TEST_CASE("--data says what it does not read") {
     DataFiles files;
     Diagnostics diagnostics;
     Limits limits;
-    limits.inputBytes = maxBytes;
+    limits.keptBytes = maxBytes * kKeptOfByte;
     CHECK(files.addFolder(folder.path(), limits, diagnostics) == expected);
     std::string out;
     for (const Diagnostic& d : diagnostics.all())

@@ -33,7 +33,7 @@ TEST_CASE("a file that cannot be read is one finding") {
   const tests::TestFolder scratch("dotek-files");
   std::ofstream(scratch / "large") << std::string(101, 'x');
   Limits limits;
-  limits.inputBytes = 100;
+  limits.keptBytes = 100 * kKeptOfByte;
   const auto codeOf = [&](const std::string& path) {
     Diagnostics diagnostics;
     CHECK_FALSE(readBytes(path, limits, diagnostics).has_value());
@@ -49,7 +49,7 @@ TEST_CASE("a file of exactly the limit is read") {
   const tests::TestFolder scratch("dotek-files");
   std::ofstream(scratch / "f") << std::string(100, 'x');
   Limits limits;
-  limits.inputBytes = 100;
+  limits.keptBytes = 100 * kKeptOfByte;
   Diagnostics diagnostics;
   CHECK(readBytes((scratch / "f").string(), limits, diagnostics).value_or("").size() == 100);
   CHECK(diagnostics.empty());

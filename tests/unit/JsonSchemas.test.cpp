@@ -170,7 +170,7 @@ TEST_CASE("sim --json prints one object, whatever happens") {
                                                              "p.nc --html p.nc",
                                                              "p.nc --trace folder",
                                                              "p.nc --data missing",
-                                                             "p.nc --limit input-bytes=1",
+                                                             "p.nc --limit kept-bytes=1",
                                                              "p.nc --from suf",
                                                              "p.suf --var 1=2",
                                                              "p.nc --control",

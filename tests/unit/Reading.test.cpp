@@ -367,9 +367,9 @@ TEST_CASE("reading: FIFOs, standard input and its names give what the file gives
   }
   {
     const StandardInput input(std::string(5000, 'G'));
-    const CommandResult run = dotekIn(folder, {"lint", "-", "--limit", "input-bytes=1000"});
+    const CommandResult run = dotekIn(folder, {"lint", "-", "--limit", "kept-bytes=1000"});
     CHECK(run.status == 2);
-    CHECK(holds(run.out, "`<stdin>` is larger than 1000 bytes"));
+    CHECK(holds(run.out, "`<stdin>` may take more than 1000 bytes of memory"));
   }
 }
 

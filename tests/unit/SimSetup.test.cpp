@@ -329,7 +329,7 @@ TEST_CASE("sim: an error in a program of the file that nothing calls stops no ru
   // Of --call the first program is the one that is called.
   CHECK(run("O9100\nG0 Z#26\nM99\nO2\n#1=[2.+\nM99\n", " --call Z1.").status == 0);
   // What belongs to no program may belong to each.
-  CHECK(run("O1\nG0 X1.\nM30\nO2\nM99\n", " --limit input-bytes=5").status != 0);
+  CHECK(run("O1\nG0 X1.\nM30\nO2\nM99\n", " --limit kept-bytes=5").status != 0);
 }
 
 TEST_CASE("setup: a flag that does not say enough names what is missing") {
