@@ -35,7 +35,7 @@ public:
   std::size_t end() const { return end_; }
   const std::vector<TextLine>& kept() const { return kept_; }
   const LeftOut& leftOut() const { return leftOut_; }
-  // Behind a stretch that is short: none of its lines begins another.
+  // After a stretch that is short: none of its lines begins another.
   std::size_t looked() const { return looked_; }
 
 private:
