@@ -50,6 +50,9 @@ namespace macrob = frontend::macrob;
 
 namespace {
 
+// Bytes of a file of programs from which on the trees of all its plain moves are too many to keep.
+constexpr std::size_t kSummaryFrom = 1U << 20U;
+
 class LintCommand {
 public:
   LintCommand(const LintOptions& options, Session& session)
@@ -365,7 +368,9 @@ private:
       const stdlib::Control* const control =
           settings.control.empty() ? nullptr : session_.control(settings.control, settings.probe);
       const auto& programs = compilation_.addPrograms(
-          *id, control == nullptr ? macrob::Forms{} : macrob::formsOf(*control), macrob::Keep::Summary);
+          *id, control == nullptr ? macrob::Forms{} : macrob::formsOf(*control),
+          session_.sources().file(*id).bytes().size() < kSummaryFrom ? macrob::Keep::All
+                                                                     : macrob::Keep::Summary);
       if (programs.programs.empty() && !programs.tooLarge)
         session_.diagnostics().report<diag::NoProgram>({*id, 0, 0}, inputName(path), "checked");
       return;
