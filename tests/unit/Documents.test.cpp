@@ -83,6 +83,10 @@ jq -r '.runs[].results[] | [.locations[0].physicalLocation.artifactLocation.uri,
        (.partialFingerprints | to_entries[].value), (.relatedLocations // [] | length)] | @tsv' after.sarif | sort >before.txt
 )"},
       {"part.md", kPart},
+      {"pocket-6m.md",
+       R"({ echo %; cat examples/pocket-6m/main.nc $(ls examples/pocket-6m/macros/*.nc | grep -v O15) | grep -v '^%'
+printf 'O15\n#105=0\nM99\n%%\n'; } >pocket.nc
+)"},
       {"sim.md", kPart},
   };
   return all;
