@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <functional>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -351,6 +352,36 @@ TEST_CASE("pocket: the programs of the 0i-MD make the same moves") {
   other.replace(other.find("X-29."), 5, "X-28.");
   folder.write("other.nc", other);
   CHECK(family.run("verify pocket.nc" + controls + "--cases 20 --translation other.nc").status == 1);
+}
+
+TEST_CASE("pocket: what is left of a block beside the surfaces") {
+  const Family family;
+  const std::string page = readAll(root() / "docs/pocket-6m.md");
+  const auto stockOf = [&](const std::string& name, const std::string& further) {
+    const CommandResult result = family.sim(" --stock examples/pocket-6m/" + name + " --json" + further);
+    CAPTURE(result.err);
+    CHECK(result.status == 0);
+    return nlohmann::json::parse(result.out)["stock"];
+  };
+  const auto row = [&](const std::string& name) {
+    const std::size_t at = page.find("| `" + name + "`");
+    REQUIRE(at != std::string::npos);
+    return page.substr(at, page.find('\n', at) - at);
+  };
+  const auto mm = [](const nlohmann::json& value) { return fmt::format("{:.4f}", value.get<double>()); };
+  for (const char* name : {"stock-cylinder.toml", "stock-floor.toml"}) {
+    const nlohmann::json stock = stockOf(name, "");
+    CHECK(row(name).ends_with(
+        fmt::format("| {} | {} |", mm(stock["cutInto"]["most"]), mm(stock["leftOver"]["most"]))));
+    CHECK(stock["leftOver"]["cells"] == 0);
+    CHECK(stock["lostMoves"].get<int>() < 10);
+  }
+  CHECK(row("stock.toml").find("| " + mm(stockOf("stock.toml", "")["cutInto"]["most"]) + " |") !=
+        std::string::npos);
+  // A mill that is smaller than its correction says.
+  const nlohmann::json worn = stockOf("stock-floor.toml", " --var 2005=0.1");
+  CHECK(page.find(mm(worn["leftOver"]["most"]) + " mm stay on the floor") != std::string::npos);
+  CHECK(worn["cutInto"]["most"] == 0);
 }
 
 TEST_CASE("pocket: how many repairs of the listing lint proposes") {
