@@ -44,9 +44,11 @@ Bundle bundleOf(const fs::path& path) {
   std::vector<fs::path> files;
   if (fs::is_directory(path)) {
     for (const auto& entry : fs::recursive_directory_iterator(path)) {
-      // Sums over the tables of a device: which of its cells is meant stands in no program, and they probe
-      // nothing.
-      if (entry.path().string().find("ram-compensation") != std::string::npos) continue;
+      // Sums over the tables of a device, formulas of a surface: what is meant is in no program, and they
+      // probe nothing.
+      const std::string name = entry.path().generic_string();
+      if (name.find("ram-compensation") != std::string::npos) continue;
+      if (name.find("pocket-6m") != std::string::npos) continue;
       if (entry.is_regular_file()) files.push_back(entry.path());
     }
   } else {
