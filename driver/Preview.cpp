@@ -12,6 +12,7 @@
 #include "support/Decimal.h"
 #include "support/Temporary.h"
 #include "support/messages/Common.h"
+#include "targets/Target.h"
 
 #include <algorithm>
 #include <cmath>
@@ -322,7 +323,10 @@ Outcome previewFolder(const PreviewOptions& options) {
 Outcome previewCycle(const PreviewOptions& options) {
   ConvertOptions convert;
   convert.inputs = options.folders;
-  convert.to = "gibbs";
+  const auto targets = allTargets();
+  const auto folders = std::find_if(targets.begin(), targets.end(),
+                                    [](const NamedTarget& one) { return one.target->writesFolder; });
+  if (folders != targets.end()) convert.to = folders->name;
   convert.probeMacros = "inspection-plus"; // the branch alone depends on it, which the page does not show
   convert.common = options.common;
   convert.common.set.clear();

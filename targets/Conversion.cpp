@@ -3,6 +3,7 @@
 #include "project/CycleFiles.h"
 #include "project/CycleValues.h"
 #include "project/Values.h"
+#include "stdlib/CodeSpan.h"
 #include "support/Decimal.h"
 #include "support/messages/Commands.h"
 #include "support/messages/Fanuc.h"
@@ -38,8 +39,9 @@ std::vector<std::string> cycleOptions(const ConvertOptions& options) {
   add(!options.results.empty(), "--result");
   add(options.calls != Calls::Inline, "--calls");
   for (const std::string& name : common.assume)
-    // The run of --verify takes it for the source.
-    if (name != "plain-messages" && !(name == "probe-on" && options.verify))
+    // The run of --verify takes it for the source; codes that do nothing are those of the controls.
+    if (name != "plain-messages" && !(name == "probe-on" && options.verify) &&
+        stdlib::auxiliaryCodes({name}).empty())
       out.push_back("--assume " + name);
   return out;
 }

@@ -125,6 +125,12 @@ private:
     if (seen++ < kMostOfOne) out.insert(from);
   }
 
+  // The way is the same a little beside the place: it is on no turn, which two controls compute otherwise.
+  bool isWithin(const Direction& direction, long place, const std::optional<std::uint64_t>& way, Ways& ways) {
+    const auto same = [&](long steps) { return wayAt(direction, steps, ways) == way; };
+    return same(place) && same(place - kApart) && same(place + kApart);
+  }
+
   void scan(const Direction& direction) {
     if (ends()) return;
     Ways ways;
@@ -138,7 +144,11 @@ private:
         last = next;
       if (at->second && !compared_.contains(*at->second)) {
         const long middle = at->first + (last->first - at->first) / 2;
-        compare(direction, wayAt(direction, middle, ways) == at->second ? middle : at->first);
+        for (const long place : {middle, middle - kApart, middle + kApart, at->first})
+          if (isWithin(direction, place, at->second, ways)) {
+            compare(direction, place);
+            break;
+          }
       }
       at = next;
     }
@@ -217,6 +227,15 @@ std::vector<SourceRange> CycleFileRunner::alarms() const {
 
 namespace {
 
+// It does something by itself, or asks.
+bool runs(const ir::CycleStatement& statement) {
+  return ir::match(
+      statement, [](const ir::OneOf<ir::Label, ir::Jump, ir::Comment> auto&) { return false; },
+      [](const ir::OneOf<ir::Move, ir::Measure, ir::CallCycle, ir::OpaqueBlock, ir::Port, ir::Print,
+                         ir::Branch, ir::Store, ir::Assign, ir::ProbePower, ir::Return, ir::Spindle,
+                         ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop, ir::Alarm> auto&) { return true; });
+}
+
 // No target prints a report; and a question alone does nothing.
 bool isCompared(const ir::CycleStatement& statement) {
   const auto* const call = std::get_if<ir::CallCycle>(&statement.node);
@@ -241,17 +260,14 @@ std::vector<SourceRange> CycleFileRunner::unreached(const Places& reached) const
   };
   for (const ir::CycleStatement& statement : cycle().body) {
     const SourceRange range = statement.origin.range();
-    const auto& node = statement.node;
-    if (!range.hasPlace() || std::holds_alternative<ir::Label>(node) ||
-        std::holds_alternative<ir::Jump>(node) || std::holds_alternative<ir::Comment>(node))
-      continue;
+    if (!range.hasPlace() || !runs(statement)) continue;
     if (reached.contains({range.file, range.begin})) {
       close();
       continue;
     }
     if (!first) first = range;
     does = does || isCompared(statement);
-    toldApart = std::holds_alternative<ir::Alarm>(node);
+    toldApart = std::holds_alternative<ir::Alarm>(statement.node);
     if (toldApart) close();
   }
   close();

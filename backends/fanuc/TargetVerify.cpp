@@ -290,7 +290,7 @@ bool FanucVerification::searchesOn(const verify::Record& source, const verify::R
                                    const verify::CompareRules& rules) const {
   return !sameMacros(sourceSet_, set_) && source.ending == verify::Ending::Alarm &&
          source.alarmKind == stdlib::macroAlarmName(stdlib::MacroAlarm::ProbeFail) &&
-         (verify::findsAll(record) || !rules.samePlace(source.endedAt, record.endedAt));
+         (verify::findsAll(record) || (rules.samePlace && !rules.samePlace(source.endedAt, record.endedAt)));
 }
 
 void FanucVerification::compareRecords(const TargetCase& now, const verify::Record& record,

@@ -331,8 +331,9 @@ TEST_CASE("cycles: a choice on one side of `or` is one message, and a missing `e
       out += one.message + " [" + std::string(one.code) + "]\n";
     return out;
   };
-  const std::string sides = "cycle one \"One\"\nparameter side : choice of left, right, front = left \"Side\"\n"
-                            "spindle off\nprobe on\n";
+  const std::string sides =
+      "cycle one \"One\"\nparameter side : choice of left, right, front = left \"Side\"\n"
+      "spindle off\nprobe on\n";
   CHECK(said(sides + "if side is left or right or front then\n  touch x by 5 mm\nend\nprobe off\n") ==
         "`or` joins two whole comparisons; write `side is left or side is right` [half-comparison]\n");
   CHECK(said("cycle one \"One\"\nspindle off\nprobe on\ntouch x by 5 mm -> far else\n  alarm \"Not there\"\n"
@@ -355,7 +356,7 @@ TEST_CASE("cycles: what hardly anybody means is a warning, once, and what looks 
     cycle::check(file, sources, diagnostics);
     std::string out;
     for (const Diagnostic& one : diagnostics.all())
-      out += std::string(one.code) + ' ';
+      out += (out.empty() ? "" : " ") + std::string(one.code);
     return out;
   };
   const std::string touch = "touch x by gap -> side\n";
@@ -364,24 +365,24 @@ TEST_CASE("cycles: what hardly anybody means is a warning, once, and what looks 
     const char* warnings;
   };
   for (const Lines& one : {
-           Lines{touch + "touch x by -gap -> side\nsize = side.at\n", "found-twice "},
+           Lines{touch + "touch x by -gap -> side\nsize = side.at\n", "found-twice"},
            Lines{touch + "size = side.at\ntouch x by -gap -> side\nsize = size - side.at\n", ""},
            Lines{touch + "if size > 3 mm then\n  size = side.at\nend\ntouch x by -gap -> side\n", ""},
            Lines{touch + "touch y by side.error + gap -> side\nsize = side.at\n", ""},
-           Lines{"for i = 5 to 1\n  " + touch + "end\n", "loop-never-runs "},
-           Lines{"for i = 1 to 5 step -1\n  " + touch + "end\n", "loop-never-runs "},
+           Lines{"for i = 5 to 1\n  " + touch + "end\n", "loop-never-runs"},
+           Lines{"for i = 1 to 5 step -1\n  " + touch + "end\n", "loop-never-runs"},
            Lines{"for i = 5 to 1 step -1\n  " + touch + "end\n", ""},
            Lines{"for i = 1 to 1\n  " + touch + "end\n", ""},
-           Lines{"while k < 3 at most 10 times\n  " + touch + "end\n", "loop-unchanged "},
+           Lines{"while k < 3 at most 10 times\n  " + touch + "end\n", "loop-unchanged"},
            Lines{"while k < 3 at most 10 times\n  " + touch + "  k = k + 1\nend\n", ""},
            Lines{touch + "while side.error > 1 mm at most 10 times\n  " + touch + "end\n", ""},
-           Lines{touch + "if abs(side.error) > -0.1 mm then\n  stop \"Far\"\nend\n", "compared-always "},
-           Lines{touch + "if -0.1 mm < abs(side.error) then\n  stop \"Far\"\nend\n", "compared-always "},
-           Lines{touch + "if abs(side.error) < 0 mm then\n  stop \"Far\"\nend\n", "compared-always "},
-           Lines{touch + "if abs(side.error) >= 0 mm then\n  stop \"Far\"\nend\n", "compared-always "},
+           Lines{touch + "if abs(side.error) > -0.1 mm then\n  stop \"Far\"\nend\n", "compared-always"},
+           Lines{touch + "if -0.1 mm < abs(side.error) then\n  stop \"Far\"\nend\n", "compared-always"},
+           Lines{touch + "if abs(side.error) < 0 mm then\n  stop \"Far\"\nend\n", "compared-always"},
+           Lines{touch + "if abs(side.error) >= 0 mm then\n  stop \"Far\"\nend\n", "compared-always"},
            Lines{touch + "if abs(side.error) > 0 mm then\n  stop \"Far\"\nend\n", ""},
            Lines{touch + "if side.error > -0.1 mm then\n  stop \"Far\"\nend\n", ""},
-           Lines{touch + "size = side.at - side.at\n", "compared-always "},
+           Lines{touch + "size = side.at - side.at\n", "compared-always"},
            Lines{touch + "size = side.at - gap\n", ""},
        }) {
     CAPTURE(one.text);

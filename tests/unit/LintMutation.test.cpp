@@ -49,6 +49,7 @@ Bundle bundleOf(const fs::path& path) {
       const std::string name = entry.path().generic_string();
       if (name.find("ram-compensation") != std::string::npos) continue;
       if (name.find("pocket-6m") != std::string::npos) continue;
+      if (name.find("examples/stock") != std::string::npos) continue;
       if (entry.is_regular_file()) files.push_back(entry.path());
     }
   } else {

@@ -320,10 +320,14 @@ TEST_CASE("verify: prints, alarms and stores of a translated program count") {
   source.ending = target.ending = verify::Ending::Alarm;
   source.alarm = target.alarm = 3001;
   source.text = "THE BORE IS TOO SMALL";
+  rules.shownText = 10;
   target.text = "THE BORE";                                       // as much as the control shows
   CHECK(verify::compare(source, target, rules).empty() == false); // the text that was printed
   target.printed = "";
   CHECK(verify::compare(source, target, rules).empty());
+  rules.shownText = 11; // one more word
+  CHECK(verify::compare(source, target, rules).size() == 1);
+  rules.shownText = 10;
   target.text = "THE BOSS";
   CHECK(verify::compare(source, target, rules).size() == 1);
   target.text = source.text;
