@@ -110,7 +110,8 @@ std::vector<verify::Difference> compareUnder(const verify::Interference& by, con
 bool stopsWithinSteps(const std::optional<verify::Record>& stopped) {
   if (!stopped) return false;
   for (auto piece = stopped->pieces.rbegin(); piece != stopped->pieces.rend(); ++piece)
-    if (piece->kind == sim::PathKind::Protected) return (piece->to - piece->from).length() <= 2 * verify::kStep;
+    if (piece->kind == sim::PathKind::Protected)
+      return (piece->to - piece->from).length() <= 2 * verify::kStep;
   return false;
 }
 
