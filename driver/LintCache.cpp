@@ -114,14 +114,14 @@ public:
     fs::create_directories(cache_.folder, error);
     if (error) return unkept(lint(options_), error.message());
     std::string why;
-    const std::optional<LintSeen> seen = LintSeen::of(options_, cache_.folder, why);
+    const std::optional<LintSeen> seen = LintSeen::of(options_, why);
     if (!seen) return unkept(lint(options_), why);
     if (std::optional<Outcome> kept = find(*seen)) return std::move(*kept);
     Outcome outcome = lint(options_);
     if (outcome.status > 1) return outcome; // what was not done is tried again
     const std::optional<Json> sources = keptSources(outcome, *seen, why);
     if (!sources) return unkept(std::move(outcome), why);
-    const std::optional<LintSeen> after = LintSeen::of(options_, cache_.folder, why);
+    const std::optional<LintSeen> after = LintSeen::of(options_, why);
     if (!after || after->digest() != seen->digest()) return outcome; // somebody edits: the next run keeps it
     return keep(std::move(outcome), *sources, *seen);
   }
@@ -228,10 +228,8 @@ private:
     std::vector<std::pair<fs::file_time_type, fs::path>> kept;
     std::error_code error;
     for (fs::directory_iterator at(cache_.folder, error), end; !error && at != end; at.increment(error)) {
-      const std::string name = at->path().filename().string();
       std::error_code one;
-      if (name.size() == fs::path(path_).filename().string().size() && name.starts_with('.') &&
-          name.ends_with(".lint") && at->is_regular_file(one))
+      if (LintSeen::isKept(at->path().filename().string()) && at->is_regular_file(one))
         kept.emplace_back(at->last_write_time(one), at->path());
     }
     if (kept.size() < kMost) return;

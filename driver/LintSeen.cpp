@@ -23,8 +23,7 @@ bool isVersionControl(const std::string& name) {
 // Writes down what it meets, in the order of names.
 class Look {
 public:
-  Look(std::string& text, std::set<FileIdentity>& files, std::string leftOut)
-      : text_(text), files_(files), leftOut_(std::move(leftOut)) {}
+  Look(std::string& text, std::set<FileIdentity>& files) : text_(text), files_(files) {}
 
   bool tooMany() const { return entries_ > LintSeen::kMostEntries || bytes_ > LintSeen::kMostBytes; }
 
@@ -45,7 +44,6 @@ private:
   void below(const std::string& folder) {
     if (!begun_.insert(folder).second) return;
     line('d', folder, "");
-    if (folder == leftOut_) return;
     std::vector<fs::path> entries;
     std::error_code error;
     for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
@@ -56,6 +54,7 @@ private:
     std::sort(entries.begin(), entries.end());
     for (const fs::path& one : entries) {
       if (tooMany()) return;
+      if (LintSeen::isKept(one.filename().string())) continue;
       std::error_code kind;
       if (!fs::is_directory(fs::symlink_status(one, kind)))
         entry(one.string());
@@ -110,7 +109,6 @@ private:
 
   std::string& text_;
   std::set<FileIdentity>& files_;
-  std::string leftOut_;
   std::set<std::string> begun_; // folders
   std::size_t entries_ = 0;
   std::uintmax_t bytes_ = 0;
@@ -118,18 +116,22 @@ private:
 
 } // namespace
 
-std::optional<LintSeen> LintSeen::of(const lint::LintOptions& options, const std::string& leftOut,
-                                     std::string& why) {
+bool LintSeen::isKept(const std::string& name) {
+  constexpr std::string_view kEnd = ".lint";
+  constexpr std::size_t kDigits = 64; // of a SHA-256
+  return name.size() == 1 + kDigits + kEnd.size() && name.starts_with('.') && name.ends_with(kEnd);
+}
+
+std::optional<LintSeen> LintSeen::of(const lint::LintOptions& options, std::string& why) {
   LintSeen out;
   std::string text;
-  Look look(text, out.files_, wholeName(leftOut));
+  Look look(text, out.files_);
   std::vector<std::string> places = options.paths;
   places.insert(places.end(), options.common.include.begin(), options.common.include.end());
   places.insert(places.end(), options.common.data.begin(), options.common.data.end());
   for (const auto& one :
        {options.common.includeRoot, options.common.job, options.source.prog, options.baseline})
     if (one) places.push_back(*one);
-  if (options.control.find('/') != std::string::npos) places.push_back(options.control);
   for (const std::string& place : places)
     look.at(place);
   if (look.tooMany()) {

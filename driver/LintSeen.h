@@ -20,10 +20,10 @@ public:
   static constexpr std::uintmax_t kMostBytes = 256U << 20U; // of all files that count whole
   static constexpr std::uintmax_t kWholeBytes = 16U << 20U;
 
-  // `leftOut`: a folder that does not count, that of the cache. nullopt: there is more than that; `why` says
-  // so.
-  static std::optional<LintSeen> of(const lint::LintOptions& options, const std::string& leftOut,
-                                    std::string& why);
+  // nullopt: there is more than that; `why` says so.
+  static std::optional<LintSeen> of(const lint::LintOptions& options, std::string& why);
+  // The name of a result that is kept, wherever it is: it does not count.
+  static bool isKept(const std::string& name);
 
   // Of two runs that see the same, the same.
   const std::string& digest() const { return digest_; }

@@ -82,7 +82,8 @@ public:
     else if (const auto kind = kindAmong(options_.program, {InputKind::Nc, InputKind::Suf, InputKind::Cycle},
                                          "an NC program", session_);
              kind == InputKind::Cycle)
-      return device_.device || device_.report ? refuseCycle() : simCycle(options_, session_);
+      return device_.device || device_.report || options_.stock ? refuseCycle()
+                                                                : simCycle(options_, session_);
     else if (kind == InputKind::Suf)
       return runSuf();
     if (stdlib::Setup setup = options_.setup; takeDatum(setup)) {
@@ -140,7 +141,10 @@ private:
   std::string_view command() const { return watched_ == nullptr ? "sim" : watched_->command(); }
 
   Outcome refuseCycle() {
-    diagnostics().report<diag::OptionOfMacroB>({}, device_.device ? "--device" : "--report");
+    if (options_.stock)
+      diagnostics().report<diag::OptionOfPrograms>({}, "--stock");
+    else
+      diagnostics().report<diag::OptionOfMacroB>({}, device_.device ? "--device" : "--report");
     return outcomeOf(session_, "");
   }
 

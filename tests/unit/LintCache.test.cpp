@@ -95,6 +95,19 @@ TEST_CASE("cache: whatever a run can see and that changes is seen") {
   }
 }
 
+TEST_CASE("cache: a folder that holds inputs, too, is looked at for changes") {
+  const ProcessFolder folder;
+  folder.run("mkdir -p shop/in; ln -s shop/in .kept");
+  folder.write("shop/O7411.nc", kCaller);
+  checkSame(folder, "shop", "at first");
+  CHECK(isFromCache(folder, "shop"));
+  folder.run("rm .kept/.*.lint");
+  checkSame(folder, "shop", "anew");
+  folder.write("shop/in/O7412.nc", "O7412\nGOTO8\nM99\n");
+  checkSame(folder, "shop", "a program beside the results");
+  checkSame(folder, "shop", "once more");
+}
+
 TEST_CASE("cache: after random edits of random files it gives what a fresh run gives") {
   const ProcessFolder folder;
   folder.run("mkdir shop");
