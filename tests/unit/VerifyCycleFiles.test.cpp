@@ -72,7 +72,7 @@ TEST_CASE("verify cycles: the library does on a control what it means") {
        {"bore", "bore-depth", "surface-x", "surface-y", "surface-z", "web-x", "channel-y", "mean-touch-z",
         "corner-inner", "corner-outer", "rectangle-inside", "step-height", "edge-angle-x", "judge",
         "surface-angled", "bore-3", "boss-angled"})
-    for (const char* const set : {"inspection-plus", "dotek"}) {
+    for (const char* const set : someOf<const char*>({"inspection-plus", "dotek"})) {
       CAPTURE(name);
       CAPTURE(set);
       driver::VerifyOptions options = optionsOf(libraryPath(name), set);

@@ -1,5 +1,6 @@
 // Translations that were damaged where no drawn case goes: what guards a move, what nobody wrote, what the
 // caller has in force.
+#include "tests/Draws.h"
 #include "tests/GoldenRunner.h"
 #include "tests/Process.h"
 
@@ -42,7 +43,7 @@ void checkDamages(const ProcessFolder& folder, const std::string& source, const 
       "dotek verify " + source + flags + ofVerify + " --cases 40 --allow-edits --translation ";
   const ShellResult good = folder.run(verify + whole);
   CHECK_MESSAGE(good.status == 0, good.out << good.err);
-  for (const Damage& one : damages) {
+  for (const Damage& one : someOf(damages)) {
     CAPTURE(one.edit);
     const ShellResult edited = folder.run(std::string("sed '") + one.edit + "' " + whole + " >" + less +
                                           "; cmp -s " + whole + " " + less + " && echo same");

@@ -29,7 +29,7 @@ constexpr const char* kOwn = "dotek.nc";
 constexpr std::size_t kNamed = 7; // operators that the acceptance names are first
 
 struct Size {
-  std::size_t faults = draws<std::size_t>(60, 8);
+  std::size_t faults = draws<std::size_t>(60, 5);
   std::uint64_t cases = draws<std::uint64_t>(40);
   std::uint64_t seed = 1;
 };
@@ -263,7 +263,7 @@ TEST_CASE("verify rejects planted faults") {
   const OwnFeatures features(std::max<std::uint64_t>(4, size.cases / 15), size.seed);
   std::vector<Subject> subjects;
   for (const Cycle& cycle : allCycles()) {
-    if (fewDraws() && subjects.size() >= 4) break; // to run them without a fault takes longest
+    if (fewDraws() && subjects.size() >= 2) break; // to run them without a fault takes longest
     for (const char* set : kFaultSets) {
       Subject one{cycle.name + ", " + set, cycle.options, "", std::string_view(set) == "dotek", {}};
       one.options.probeMacros = set;

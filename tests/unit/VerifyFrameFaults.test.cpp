@@ -229,7 +229,7 @@ std::string_view whyNothing(const Fault& fault, const std::string& program) {
 } // namespace
 
 TEST_CASE("verify sees faults in the frame of programs") {
-  std::size_t wanted = draws<std::size_t>(30, 5);
+  std::size_t wanted = draws<std::size_t>(30, 3);
   if (const char* text = std::getenv("DOTEK_FRAME_FAULTS"))
     wanted = static_cast<std::size_t>(parseNumber(text).value_or(1000));
   const std::vector<Translation> all = translations(std::getenv("DOTEK_FRAME_FAULTS") != nullptr);

@@ -1,4 +1,5 @@
 // Where cycles of tests/shops stop: with which text, after what, and where they try again.
+#include "tests/Draws.h"
 #include "tests/unit/ShopRuns.h"
 
 #include <algorithm>
@@ -53,7 +54,7 @@ TEST_CASE("verify: the offset of the fourth axis is compared") {
 }
 
 TEST_CASE("verify: work offsets beyond G59 keep the numbers of the source in the argument") {
-  for (const char* control : {"haas-ngc", "fanuc-31i-b"}) {
+  for (const char* control : someOf<const char*>({"haas-ngc", "fanuc-31i-b"})) {
     const Shop slot{"vandoorn", "VD_SLEUF_G154", "meten", "fanuc", "inspection-plus", control};
     CHECK_MESSAGE(agrees(verified(slot)), verified(slot));
   }
@@ -133,15 +134,15 @@ TEST_CASE("verify: the offset before and after, signed deviations, a contact ask
 }
 
 TEST_CASE("verify: a bore that is measured until it repeats meets the end of its loop") {
-  for (const char* macros : {"inspection-plus", "dotek"}) {
+  for (const char* macros : someOf<const char*>({"inspection-plus", "dotek"})) {
     const Shop hole{"retries", "LS-HOLE-RETRY", "probeIt", "fanuc", macros, "fanuc-31i-b"};
     const std::string good = converted(hole), said = verified(hole);
     CHECK_MESSAGE(("\n" + said).find("\nAGREES") != std::string::npos, said); // one may be undecided
-    for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{
-             {"GE 3.]GOTO", "GE 2.]GOTO"},                              // once less
-             {"IF[ABS[#612-#611] LE", "IF[[#612-#611] LE"},             // each smaller one repeats
-             {"GOTO 10\n", "GOTO 30\n"},                                // what does not repeat is taken
-             {"\n#3000=103(HOLE DOES NOT REPEAT)", "\n(#3000=103)"}}) { // and so it is
+    for (const auto& [from, to] : someOf(std::vector<std::pair<std::string, std::string>>{
+             {"GE 3.]GOTO", "GE 2.]GOTO"},                               // once less
+             {"IF[ABS[#612-#611] LE", "IF[[#612-#611] LE"},              // each smaller one repeats
+             {"GOTO 10\n", "GOTO 30\n"},                                 // what does not repeat is taken
+             {"\n#3000=103(HOLE DOES NOT REPEAT)", "\n(#3000=103)"}})) { // and so it is
       CAPTURE(from);
       CHECK(differs(hole, replaced(good, from, to)));
     }
@@ -167,10 +168,10 @@ TEST_CASE("verify: a protected move that asks whether a part is there") {
     const Shop part{"retries", "LS-PART-CHECK", "probeIt", "fanuc", macros, "fanuc-31i-b"};
     const std::string good = converted(part);
     CHECK_MESSAGE(agrees(verified(part)), verified(part));
-    for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{
+    for (const auto& [from, to] : someOf(std::vector<std::pair<std::string, std::string>>{
              {"[#148 EQ 7.]", "[#148 NE 7.]"}, // an alarm with a part
              {"\n#3000=101(NO PART IN VISE)", "\n#3000=100(ALLOW LOW IS 0.5 TO 8 MM)"}, // another alarm
-             {"Z#28 F500. M1", "Z#28 F500."}}) {                                        // no question
+             {"Z#28 F500. M1", "Z#28 F500."}})) {                                       // no question
       CAPTURE(from);
       CHECK(differs(part, replaced(good, from, to)));
     }
@@ -189,7 +190,7 @@ TEST_CASE("verify: a size that is computed with the shop's variable of the ball 
 TEST_CASE("verify: the header of a translation says what its arguments are") {
   const Shop part{"retries", "LS-PART-CHECK", "probeIt", "fanuc", "inspection-plus", "fanuc-31i-b"};
   const std::string good = converted(part);
-  for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{
+  for (const auto& [from, to] : someOf(std::vector<std::pair<std::string, std::string>>{
            {"GIVE    0.5 TO 8", "3       0.5 TO 8"},       // a default that it has not
            {"0.5 TO 8 ALLOW", "0.5 TO 9 ALLOW"},           // another range
            {"A #1  ZNOM      MM ", "A #1  ZNOM      DEG"}, // another unit
@@ -202,7 +203,7 @@ TEST_CASE("verify: the header of a translation says what its arguments are") {
            {"(ALARM 101 ", "(ALARM 121 "},
            {", TOOL LENGTH ACTIVE", ""},
            {", NO MIRROR)\n(IMAGE", ")\n("},
-           {"(MOVE THE PROBE: X Y ", "(MOVE THE PROBE: X "}}) {
+           {"(MOVE THE PROBE: X Y ", "(MOVE THE PROBE: X "}})) {
     CAPTURE(from);
     CHECK(differs(part, replaced(good, from, to)));
   }
@@ -230,10 +231,10 @@ TEST_CASE("convert: the tool length that a call of another set corrects") {
   const Shop length{"series", "KS.Delka.Nastroje", "sonda", "fanuc", "dotek", "fanuc-31i-b"};
   const std::string good = converted(length);
   CHECK_MESSAGE(agrees(verified(length)), verified(length));
-  for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{
-           {"]-#15*#16", "]+#15*#16"},                        // the wrong way
-           {"#[2200+#20]=", "#[2000+#20]="},                  // the wear
-           {"IF[ABS[#16] LT #22]", "IF[ABS[#16] GT #22]"}}) { // within the band
+  for (const auto& [from, to] : someOf(std::vector<std::pair<std::string, std::string>>{
+           {"]-#15*#16", "]+#15*#16"},                         // the wrong way
+           {"#[2200+#20]=", "#[2000+#20]="},                   // the wear
+           {"IF[ABS[#16] LT #22]", "IF[ABS[#16] GT #22]"}})) { // within the band
     CAPTURE(from);
     CHECK(differs(length, replaced(good, from, to)));
   }

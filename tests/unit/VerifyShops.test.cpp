@@ -1,4 +1,5 @@
 // Cycles of tests/shops where a macro of a vendor stops, is not known, or is written as several calls.
+#include "tests/Draws.h"
 #include "tests/unit/ShopRuns.h"
 
 namespace dotek::tests {
@@ -16,11 +17,11 @@ TEST_CASE("verify: a limit of the vendor's call and the translation's own compar
   CHECK(said.find("[verify-replaced]") != std::string::npos);
   CHECK(said.find("alarm: OUT OF POSITION") != std::string::npos);
   const std::string good = converted(kSlot);
-  for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{
+  for (const auto& [from, to] : someOf(std::vector<std::pair<std::string, std::string>>{
            {"(OUT OF POSITION)", "(OUT OF TOLERANCE)"}, // another limit
            {"IF[2.*ABS[#136", "IF[ABS[#136"},           // half of it
            {"GT ABS[#13]]THEN", "GT 0]THEN"},           // always
-           {"IF[2.*ABS[#136", "IF[0*ABS[#136"}})        // never
+           {"IF[2.*ABS[#136", "IF[0*ABS[#136"}}))       // never
     CHECK_MESSAGE(verified(kSlot, replaced(good, from, to)).find("\nDIFFERS") != std::string::npos,
                   from << " to " << to);
 }
@@ -40,8 +41,8 @@ TEST_CASE("verify: a bore by three touches at angles, with our own macro") {
     const std::size_t at = good.find("G65 P8823");
     REQUIRE(at != std::string::npos);
     const std::string line = good.substr(at, good.find('\n', at) - at);
-    for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{
-             {"A#", "A-#"}, {" S#", " S1+#"}, {"P8823", "P8814"}, {line, "(" + line + ")"}}) {
+    for (const auto& [from, to] : someOf(std::vector<std::pair<std::string, std::string>>{
+             {"A#", "A-#"}, {" S#", " S1+#"}, {"P8823", "P8814"}, {line, "(" + line + ")"}})) {
       const std::string wrong = replaced(line, from, to);
       CHECK_MESSAGE(!agrees(verified(arc, replaced(good, line, wrong))), wrong);
     }
@@ -88,12 +89,12 @@ TEST_CASE("verify: holes one after the other, above whose plate the probe travel
 }
 
 TEST_CASE("verify: a zone of position in a loop, where the place is read from the control") {
-  for (const char* control : {"fanuc-0i-md", "fanuc-31i-b"}) {
+  for (const char* control : someOf<const char*>({"fanuc-0i-md", "fanuc-31i-b"})) {
     const Shop spigot{"zones", "HF.Zapfen.Lage", "taster", "fanuc", "dotek", control};
     const std::string good = converted(spigot);
     CHECK_MESSAGE(agrees(verified(spigot)), verified(spigot));
-    for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{
-             {"=#5041\n", "=#5042\n"}, {"=#5042\n", "=0.\n"}, {"2.*SQRT[", "SQRT["}})
+    for (const auto& [from, to] : someOf(std::vector<std::pair<std::string, std::string>>{
+             {"=#5041\n", "=#5042\n"}, {"=#5042\n", "=0.\n"}, {"2.*SQRT[", "SQRT["}}))
       CHECK_MESSAGE(verified(spigot, replaced(good, from, to)).find("\nDIFFERS") != std::string::npos,
                     from << " to " << to);
   }
@@ -115,8 +116,8 @@ TEST_CASE("verify: a result that the ways leave in different variables is copied
     const std::string good = converted(face);
     CHECK_MESSAGE(agrees(verified(face)), verified(face));
     CHECK(good.find("#581=#135") < good.find("#581=#136"));
-    for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{
-             {"#581=#136", "#581=#135"}, {"  writeBlock(\"#581=#135\");\n", ""}})
+    for (const auto& [from, to] : someOf(std::vector<std::pair<std::string, std::string>>{
+             {"#581=#136", "#581=#135"}, {"  writeBlock(\"#581=#135\");\n", ""}}))
       CHECK_MESSAGE(verified(face, replaced(good, from, to)).find("\nDIFFERS") != std::string::npos,
                     from << " to " << to);
   }
@@ -237,26 +238,26 @@ TEST_CASE("verify: each damage to the way round a web is seen") {
              {"GZ", "-5"}, {"LUZ", "5"}, {"UKL", "3"}};
   const std::string good = converted(web);
   CHECK_MESSAGE(agrees(verified(web, good)), verified(web, good));
-  for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{
+  for (const auto& [from, to] : someOf(std::vector<std::pair<std::string, std::string>>{
            {"G92 Y-5 ", "G92 Y0 "},            // another share of the way off the wall
            {"G1 Y-5 F1000", "G1 Y-4 F1000"},   // the two ways off the walls are not alike
            {"P90=P90+5\r\n", "P90=P90+6\r\n"}, // the record
            {"G31 Z4 L", "G31 Z-4 L"},          // does not come up
            {"G31 Z-5 L", "G31 Z-4 L"},         // touches higher
-           {"G92 Y20\r\n", "G92 Y21\r\n"}})
+           {"G92 Y20\r\n", "G92 Y21\r\n"}}))
     CHECK_MESSAGE(!agrees(verified(web, replaced(good, from, to))), from << " to " << to);
   web.assume.clear();
   web.datum = "operator";
   const std::string byHand = converted(web);
   CHECK_MESSAGE(agrees(verified(web, byHand)), verified(web, byHand));
   // The half of the width is 12.5, the ball 3, the clearance 5.
-  for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{
-           {"G31 Y40.5 L", "G31 Y36.5 L"},        // down too near
-           {"G31 Y-0.5 L", "G31 Y3.5 L"},         // the same on the other side
-           {"G1 Y40.5 F1000", "G1 Y50 F1000"},    // too far off the wall
-           {"G1 Y-0.5 F1000", "G1 Y-10 F1000"},   // the same
-           {"G31 Z4 L", "G31 Z5 L"},              // not as high as it began
-           {"G1 Y40.5 F1000", "G1 Y40.5 F2000"}}) // another feed
+  for (const auto& [from, to] : someOf(std::vector<std::pair<std::string, std::string>>{
+           {"G31 Y40.5 L", "G31 Y36.5 L"},         // down too near
+           {"G31 Y-0.5 L", "G31 Y3.5 L"},          // the same on the other side
+           {"G1 Y40.5 F1000", "G1 Y50 F1000"},     // too far off the wall
+           {"G1 Y-0.5 F1000", "G1 Y-10 F1000"},    // the same
+           {"G31 Z4 L", "G31 Z5 L"},               // not as high as it began
+           {"G1 Y40.5 F1000", "G1 Y40.5 F2000"}})) // another feed
     CHECK_MESSAGE(!agrees(verified(web, replaced(byHand, from, to))), from << " to " << to);
   // After the stop of the operator it is asked again.
   const std::size_t asked = byHand.rfind("G23 L910 O7");

@@ -2,6 +2,7 @@
 // nothing, values that the dialog alone rejects.
 #include "driver/Driver.h"
 #include "support/Worker.h"
+#include "tests/Draws.h"
 #include "tests/GoldenRunner.h"
 #include "tests/TestFolder.h"
 #include "tests/policy/Tree.h"
@@ -93,7 +94,7 @@ TEST_CASE("verify: each touch that finds nothing ends with the alarm of the sour
 
 TEST_CASE("verify: what is measured turns a check just where it turns in the source") {
   // A part of another thickness, or a surface a step from the end of the search, on either side.
-  for (const char* to : {"fanuc", "fusion"}) {
+  for (const char* to : someOf<const char*>({"fanuc", "fusion"})) {
     const Shop thick{"repeats", "KR.Dicke.Y", to, "inspection-plus"};
     const bool fusion = std::string_view(to) == "fusion";
     const std::string text = converted(thick);
