@@ -5,7 +5,10 @@
 #include "project/CycleFiles.h"
 #include "stdlib/MacroSet.h"
 
+#include <functional>
+#include <initializer_list>
 #include <map>
+#include <string>
 
 namespace dotek::project {
 
@@ -14,5 +17,10 @@ namespace dotek::project {
 // that a source describes.
 std::map<const frontend::cycle::File*, frontend::cycle::MacroCycle> macroCycles(const stdlib::MacroSet& set,
                                                                                 CycleFiles& files);
+
+// What programs of the sets measure, as cycles by their names (stdlib::libraryCycle(), islandCycle()). One of
+// a folder of --data that has a mistake is reported and missing. A set that is nullptr has none.
+std::map<std::string, ir::Cycle, std::less<>>
+measuringCycles(std::initializer_list<const stdlib::MacroSet*> sets, Session& session);
 
 } // namespace dotek::project

@@ -30,4 +30,19 @@ std::string_view alarmMeaning(Alarm alarm) {
   return "";
 }
 
+std::string_view macroAlarmText(stdlib::MacroAlarm alarm) {
+  switch (alarm) {
+  case MacroAlarm::PathObstructed:
+    return "the probe touched something on its path where nothing was expected";
+  case MacroAlarm::NoFeed: return "no feed is given for the protected move";
+  case MacroAlarm::ProbeOpen: return "the probe is deflected before it moves";
+  case MacroAlarm::ProbeFail: return "the probe met nothing on its path to the surface";
+  case MacroAlarm::OutOfTolerance: return "the size is out of its tolerance";
+  case MacroAlarm::OutOfPosition: return "the feature is out of its position tolerance";
+  case MacroAlarm::OutOfAngle: return "the angle is out of its tolerance";
+  case MacroAlarm::UpperLimit: return "the error is larger than the call allows";
+  }
+  return "";
+}
+
 } // namespace dotek::stdlib

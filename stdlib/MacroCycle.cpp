@@ -1,6 +1,7 @@
 #include "stdlib/MacroCycle.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace dotek::stdlib {
 namespace {
@@ -88,11 +89,34 @@ std::optional<ir::Axis> axisOf(const MacroSignature& signature) {
   return found == signature.arguments.end() ? std::nullopt : std::optional(found->axis);
 }
 
-std::string libraryCycle(const MacroSignature& signature) {
-  std::string out = "measure_" + std::string(intentName(signature.intent));
+std::string languageName(std::string_view name) {
+  std::string out(name);
   std::replace(out.begin(), out.end(), '-', '_');
-  if (const auto axis = axisOf(signature)) out += std::string("_") + "xyz"[ir::indexOf(*axis)];
   return out;
+}
+
+namespace {
+
+std::string measures(Intent intent, std::optional<ir::Axis> axis) {
+  std::string out = "measure_" + languageName(intentName(intent));
+  if (axis) out += std::string("_") + "xyz"[ir::indexOf(*axis)];
+  return out;
+}
+
+} // namespace
+
+std::string libraryCycle(const MacroSignature& signature) {
+  return measures(signature.intent, axisOf(signature));
+}
+
+std::string islandCycle(const MacroSignature& signature) {
+  constexpr std::pair<Intent, Intent> kInside[] = {{Intent::Boss, Intent::Bore},
+                                                   {Intent::Web, Intent::Pocket},
+                                                   {Intent::AngledWeb, Intent::AngledPocket},
+                                                   {Intent::ThreePointBoss, Intent::ThreePointBore}};
+  for (const auto& [outside, inside] : kInside)
+    if (signature.intent == outside) return measures(inside, axisOf(signature)) + "_island";
+  return "";
 }
 
 std::string parameterName(const MacroArgument& argument) {

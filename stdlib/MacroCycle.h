@@ -27,6 +27,13 @@ std::optional<ir::Axis> axisOf(const MacroSignature& signature);
 // "measure", and the axis of an intent with a signature for each axis: "measure_bore", "measure_web_x".
 std::string libraryCycle(const MacroSignature& signature);
 
+// Name of the one for a feature that the probe goes down beside, where an island is in its middle:
+// "measure_bore_island" of a boss, whose letters are the same. "": no call has it.
+std::string islandCycle(const MacroSignature& signature);
+
+// A role or an output as a name of the cycle language: "first_angle" of "first-angle".
+std::string languageName(std::string_view name);
+
 // Name of the parameter that the argument fills, its axis included: "target x", "depth". Of a letter whose
 // meaning is in no source: "letter k".
 std::string parameterName(const MacroArgument& argument);

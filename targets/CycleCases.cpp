@@ -1,3 +1,4 @@
+#include "project/MacroCycles.h"
 #include "targets/CycleCasesParts.h"
 
 #include "frontend/compost/Summary.h"
@@ -11,7 +12,7 @@
 #include "project/VariableFlags.h"
 #include "sim/machine/Compile.h"
 #include "sim/machine/Value.h"
-#include "sim/machine/VendorMacros.h"
+#include "sim/vendor/VendorMacros.h"
 #include "stdlib/HostInputs.h"
 #include "support/messages/ComPost.h"
 #include "support/messages/Commands.h"
@@ -128,6 +129,7 @@ bool CaseRunner::prepare() {
   draws_.emplace(std::move(near), std::move(hosts), plan_.fixedHosts, options_.seed, plan_.bounds,
                  options_.cases);
   sourceSet_ = session_.macroSet(plan_.sourceMacros, &*inputs_->sourceControl);
+  measuring_ = project::measuringCycles({sourceSet_}, session_);
   if (sourceSet_ != nullptr)
     for (const auto intent : {stdlib::Intent::ProbeOn, stdlib::Intent::ProbeOff})
       if (const auto* signature = sourceSet_->find(intent)) switches_.insert(signature->program);
@@ -534,7 +536,7 @@ verify::Record CaseRunner::runPosted(const Values& values, sim::World& world, co
                                      verify::Stand::Way way, const verify::Interference& interference) const {
   std::optional<sim::VendorMacros> meaning;
   if (sourceSet_ != nullptr) {
-    meaning.emplace(*sourceSet_, *inputs_->sourceControl);
+    meaning.emplace(*sourceSet_, *inputs_->sourceControl, measuring_);
     meaning->setStylusRadius(values.drawn.hosts.at("tool_radius"));
     if (passesUnstated()) meaning->passUnstated();
     if (way == verify::Stand::Way::MovePath) meaning->touchApart();

@@ -9,6 +9,7 @@
 #include "project/Session.h"
 #include "sim/geometry/Probe.h"
 #include "sim/machine/Bytecode.h"
+#include "sim/vendor/VendorMacros.h"
 #include "stdlib/MacroSet.h"
 #include "targets/Subject.h"
 #include "targets/Verification.h"
@@ -165,6 +166,7 @@ private:
   std::map<std::string, bool> moving_; // fields of which Questions knows whether they move something
 
   const stdlib::MacroSet* sourceSet_ = nullptr;
+  sim::MeasuringCycles measuring_;                   // that its calls stand for
   mutable std::optional<verify::Stand> sourceStand_; // told what the posted program guards, before each run
   std::unique_ptr<Verification> target_;             // nullptr: no translation
   std::unique_ptr<NominalFields> nominal_;           // where target_ wants it

@@ -2,7 +2,7 @@
 
 #include "sim/machine/Measurement.h"
 #include "sim/machine/Value.h"
-#include "sim/machine/VendorMacros.h"
+#include "stdlib/AlarmMeaning.h"
 #include "stdlib/RadiusOffsets.h"
 #include "verify/Nominal.h"
 #include "verify/RadiusTable.h"
@@ -584,7 +584,7 @@ std::string Recorder::alarmKindOf(const sim::RunEnd& end) const {
   for (const stdlib::MacroSet* set : sets_) {
     for (const stdlib::MacroAlarm alarm : kAlarms) {
       const stdlib::MacroAlarmInfo* const info = set->find(alarm);
-      const bool same = info == nullptr ? end.number == 0 && end.text == sim::macroAlarmText(alarm)
+      const bool same = info == nullptr ? end.number == 0 && end.text == stdlib::macroAlarmText(alarm)
                         : info->number  ? end.number == machine_.control().alarmShown + *info->number &&
                                              end.text == info->text
                                        : end.number == 0 && end.text == info->text;

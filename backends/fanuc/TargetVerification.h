@@ -4,6 +4,7 @@
 
 #include "backends/fanuc/TargetText.h"
 #include "backends/fanuc/TargetVerify.h"
+#include "sim/vendor/VendorMacros.h"
 #include "targets/Stage.h"
 #include "verify/Callers.h"
 
@@ -105,7 +106,8 @@ private:
   const Translation& translation_;
   const stdlib::Control control_;
   const stdlib::MacroSet *sourceSet_, *set_;
-  const bool macrosHaveText_; // those of `set_`, which run by it
+  const sim::MeasuringCycles measuring_; // that their calls stand for
+  const bool macrosHaveText_;            // those of `set_`, which run by it
   const Limits limits_ = limitsOfRun(from_.session.limits());
   verify::Stand stand_;
   FanucText text_;

@@ -1,12 +1,13 @@
 // Cases of verify --to fanuc.
 #include "backends/fanuc/TargetVerification.h"
+#include "project/MacroCycles.h"
 
 #include "backends/fanuc/TargetAlarms.h"
 #include "backends/fanuc/TargetEntry.h"
 #include "frontend/gibbs/Ast.h"
 #include "project/CycleChecks.h"
 #include "sim/machine/Value.h"
-#include "sim/machine/VendorMacros.h"
+#include "sim/vendor/VendorMacros.h"
 #include "stdlib/MovedSet.h"
 #include "support/Decimal.h"
 #include "verify/Exactness.h"
@@ -54,6 +55,7 @@ FanucVerification::FanucVerification(const VerificationSource& source)
       control_(paddingAs(*source.inputs.sourceControl, *source.inputs.control)),
       sourceSet_(source.session.macroSet(source.plan.sourceMacros, &*source.inputs.sourceControl)),
       set_(source.session.macroSet(source.plan.targetMacros, &*source.inputs.control)),
+      measuring_(project::measuringCycles({set_}, source.session)),
       macrosHaveText_(set_ != nullptr && stdlib::macroText(source.session.data(), set_->name).has_value()),
       stand_(control_,
              set_ == nullptr ? std::vector<const stdlib::MacroSet*>{}
@@ -136,7 +138,7 @@ verify::Record FanucVerification::runText(const TargetCase& now, const verify::E
   if (now.shown != nullptr) ran_ = entry;
   std::optional<sim::VendorMacros> meaning;
   if (set_ != nullptr) {
-    meaning.emplace(*set_, control_);
+    meaning.emplace(*set_, control_, measuring_);
     meaning->setStylusRadius(now.drawn.hosts.at("tool_radius"));
     if (sameMacros(sourceSet_, set_)) meaning->passUnstated();
   }

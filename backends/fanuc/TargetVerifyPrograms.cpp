@@ -1,4 +1,5 @@
 #include "backends/fanuc/TargetProgramPlayed.h"
+#include "project/MacroCycles.h"
 
 #include "backends/fanuc/ProgramCalls.h"
 #include "project/Hosts.h"
@@ -8,7 +9,7 @@
 #include "project/VariableFlags.h"
 #include "sim/machine/Compile.h"
 #include "sim/machine/Value.h"
-#include "sim/machine/VendorMacros.h"
+#include "sim/vendor/VendorMacros.h"
 #include "stdlib/MovedSet.h"
 #include "support/Files.h"
 #include "support/messages/Commands.h"
@@ -69,6 +70,7 @@ bool ProgramRunner::load() {
     targetSet_ = session_.macroSet(options_.probeMacros.value_or(sourceSet_->name), &*targetControl_);
     if (targetSet_ == nullptr) targetSet_ = sourceSet_;
   }
+  measuring_ = project::measuringCycles({sourceSet_, targetSet_}, session_);
   std::vector<const stdlib::MacroSet*> used;
   if (sourceSet_ != nullptr) used.push_back(sourceSet_);
   if (targetSet_ != sourceSet_) used.push_back(targetSet_);
@@ -340,7 +342,7 @@ verify::Record ProgramRunner::runSide(const Side& side, const verify::Case& draw
       verify::Random(verify::Random::sub(drawn.stream, verify::Random::hash("contact"))).between(0.5, 0.95);
   std::optional<sim::VendorMacros> meaning;
   if (side.set != nullptr) {
-    meaning.emplace(*side.set, *side.control);
+    meaning.emplace(*side.set, *side.control, measuring_);
     meaning->setStylusRadius(drawn.hosts.at("tool_radius"));
     if (sameMacros(sourceSet_, targetSet_)) meaning->passUnstated();
   }

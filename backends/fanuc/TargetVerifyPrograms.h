@@ -4,6 +4,7 @@
 #include "backends/fanuc/TargetText.h"
 #include "ir/Program.h"
 #include "sim/machine/Bytecode.h"
+#include "sim/vendor/VendorMacros.h"
 #include "stdlib/Control.h"
 #include "stdlib/MacroSet.h"
 #include "targets/Stage.h"
@@ -109,6 +110,7 @@ private:
   std::optional<stdlib::Control> sourceControl_, targetControl_, sourceAsTarget_;
   const stdlib::MacroSet* sourceSet_ = nullptr; // nullptr: none is called
   const stdlib::MacroSet* targetSet_ = nullptr;
+  sim::MeasuringCycles measuring_;      // of both
   std::map<std::string, double> hosts_; // given
   std::optional<ir::ProgramFile> programs_, macros_;
   std::optional<Caller> caller_;

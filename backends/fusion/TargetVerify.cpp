@@ -5,9 +5,10 @@
 #include "backends/fusion/TargetOperation.h"
 #include "backends/fusion/TargetWritten.h"
 #include "ir/Program.h"
+#include "project/MacroCycles.h"
 #include "sim/machine/Compile.h"
 #include "sim/machine/SafeMoves.h"
-#include "sim/machine/VendorMacros.h"
+#include "sim/vendor/VendorMacros.h"
 #include "stdlib/MovedSet.h"
 #include "support/Decimal.h"
 #include "support/messages/Verify.h"
@@ -326,7 +327,7 @@ private:
                          const verify::Interference& interference = {}) {
     std::optional<sim::VendorMacros> meaning;
     if (set_ != nullptr) {
-      meaning.emplace(*set_, control_);
+      meaning.emplace(*set_, control_, measuring_);
       meaning->setStylusRadius(now.drawn.hosts.at("tool_radius"));
       if (sourceSet_ == set_) meaning->passUnstated();
     }
@@ -362,6 +363,7 @@ private:
   const VerificationSource from_;
   const stdlib::Control& control_;
   const stdlib::MacroSet *sourceSet_, *set_;
+  const sim::MeasuringCycles measuring_ = project::measuringCycles({set_}, from_.session);
   const Limits limits_ = limitsOfRun(from_.session.limits());
   verify::Stand stand_;
   std::string prefix_;

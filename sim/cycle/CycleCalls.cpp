@@ -69,8 +69,7 @@ bool CycleRun::setOffset(const ir::CallCycle& node) {
 
 bool CycleRun::hasTool(std::optional<double> tool) {
   if (tool && *tool >= 1 && *tool <= kMostTool && *tool == std::floor(*tool)) return true;
-  return machine_.raiseUnnumbered(
-      fmt::format("there is no tool offset {}", tool ? numberText(*tool) : "without a number"));
+  return raise(fmt::format("there is no tool offset {}", tool ? numberText(*tool) : "without a number"));
 }
 
 namespace {
@@ -126,7 +125,7 @@ bool CycleRun::report(const ir::CallCycle& node) {
   if (nominal) text += fmt::format(" nominal {}", fixedText(*nominal, kDecimals));
   if (tolerance) text += fmt::format(" tolerance {}", fixedText(*tolerance, kDecimals));
   machine_.remark("report", text);
-  if (MotionWatcher* const watcher = machine_.watcher(); watcher != nullptr)
+  if (MotionWatcher* const watcher = this->watcher(); watcher != nullptr)
     watcher->reported({0, "report", {{comment_, nominal, *measured}}});
   return true;
 }
@@ -141,7 +140,7 @@ bool CycleRun::callSurface(const ir::CallCycle& node) {
   const std::optional<double> expected = coordinate(
       {target->value, target->frame.value_or(ir::Frame::Here), nullptr}, i, ir::ProbePoint::Lowest);
   if (!expected) return false;
-  if (overtravel && *overtravel < 0) return machine_.raiseUnnumbered("an overtravel below 0");
+  if (overtravel && *overtravel < 0) return raise("an overtravel below 0");
   results_.clear();
   const Search how{overtravel.value_or(inputs_.overtravel), overtravel.has_value(), once.value_or(0) != 0,
                    miss.value_or(0) != 0};
@@ -162,11 +161,10 @@ bool CycleRun::callSurfaceAlong(const ir::CallCycle& node) {
       !read(node, "miss", miss))
     return false;
   const double length = std::hypot(parts[0].value_or(0), parts[1].value_or(0), parts[kZ].value_or(0));
-  if (!(length > 0)) return machine_.raiseUnnumbered("a direction of no length");
+  if (!(length > 0)) return raise("a direction of no length");
   if (!travel || std::abs(*travel) < kNothing)
-    return machine_.raiseUnnumbered(
-        "the surface is expected where the probe is; which way it lies is not known");
-  if (overtravel && *overtravel < 0) return machine_.raiseUnnumbered("an overtravel below 0");
+    return raise("the surface is expected where the probe is; which way it lies is not known");
+  if (overtravel && *overtravel < 0) return raise("an overtravel below 0");
   Direction direction{};
   for (std::size_t i = 0; i < parts.size(); ++i)
     direction[i] = parts[i].value_or(0) / length * (*travel > 0 ? 1 : -1) + 0.0;
@@ -201,7 +199,7 @@ bool CycleRun::callSurfaceAlong(const ir::CallCycle& node) {
         {std::string(1, "XYZ"[i]), planned.from[i] + up + direction[i] * planned.distance, at});
   }
   results_[ir::ResultName::Main] = along + ball - planned.distance;
-  if (MotionWatcher* const watcher = machine_.watcher(); watcher != nullptr) watcher->measured(found);
+  if (MotionWatcher* const watcher = this->watcher(); watcher != nullptr) watcher->measured(found);
   end();
   return true;
 }

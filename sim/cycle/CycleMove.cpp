@@ -37,14 +37,15 @@ std::optional<double> CycleRun::coordinate(const ir::Coordinate& target, std::si
 }
 
 bool CycleRun::goTo(const Position& end, MotionKind kind, std::optional<double> feed) {
-  return machine_.goTo(end, kind, feed);
+  return caller_ != nullptr ? machine_.travelTo(end) : machine_.goTo(end, kind, feed);
 }
 
 bool CycleRun::protectedTo(const Position& end) {
   if (distance(machine_.position(), end) < kNoPath) return true;
   if (nominal_) return goTo(end, MotionKind::Feed);
   protected_ = true;
-  const std::optional<bool> contact = machine_.probeTo(end, true, "protected");
+  const std::optional<bool> contact =
+      machine_.probeTo(end, true, caller_ == nullptr ? "protected" : "probing");
   protected_ = false;
   if (!contact) return false;
   // One that touches where it ends has got there.
@@ -67,7 +68,7 @@ bool CycleRun::move(const ir::Move& node) {
   if (node.feed) {
     feed = number(node.feed);
     if (!feed) return false;
-    if (!(*feed > 0)) return machine_.raiseUnnumbered("a feed that is not above 0");
+    if (!(*feed > 0)) return raise("a feed that is not above 0");
   }
   switch (node.motion) {
   case ir::Motion::Rapid: return goTo(end, MotionKind::Rapid);
@@ -75,7 +76,7 @@ bool CycleRun::move(const ir::Move& node) {
   case ir::Motion::Protected: break;
   }
   if (feed) machine_.setFeed(*feed);
-  MotionWatcher* const watcher = machine_.watcher();
+  MotionWatcher* const watcher = this->watcher();
   if (watcher != nullptr) watcher->protectedBegins(feed);
   if (!protectedTo(end)) return false;
   if (watcher != nullptr) watcher->protectedEnded();

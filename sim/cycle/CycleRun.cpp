@@ -1,6 +1,6 @@
 #include "sim/cycle/CycleRun.h"
 
-#include "sim/machine/VendorMacros.h"
+#include "stdlib/AlarmMeaning.h"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -60,11 +60,19 @@ void CycleRun::follow(CycleWay& way) {
   way_ = &way;
 }
 
-void CycleRun::run() {
+bool CycleRun::runAll() {
   start_ = machine_.machinePosition();
   fillHosts();
-  if (!runList(cycle_.checks) || returned_ || !runList(cycle_.body)) return;
-  machine_.finish();
+  return runList(cycle_.checks) && (returned_ || runList(cycle_.body));
+}
+
+void CycleRun::run() {
+  if (runAll() && !returned_) machine_.finish();
+}
+
+bool CycleRun::runFor(CycleCaller& caller) {
+  caller_ = &caller;
+  return runAll();
 }
 
 bool CycleRun::runList(const std::vector<ir::CycleStatement>& list) {
@@ -78,7 +86,7 @@ bool CycleRun::runList(const std::vector<ir::CycleStatement>& list) {
       way_->turns = (way_->turns ^ (at + 1)) * kPrime;
     }
     if (!spend(kStatement)) return false;
-    machine_.countBlock(machine_.frame().line);
+    if (caller_ == nullptr) machine_.countBlock(machine_.frame().line);
     if (!step(list[at]) || !machine_.running()) return false;
     if (returned_) return true;
     if (!jump_) {
@@ -113,12 +121,16 @@ std::vector<SourceRange> CycleRun::openCalls() const {
 }
 
 bool CycleRun::inconclusive(std::string why) {
-  return machine_.inconclusive(std::move(why));
+  return caller_ != nullptr ? caller_->refused(why) : machine_.inconclusive(std::move(why));
 }
 
 bool CycleRun::alarm(stdlib::MacroAlarm kind) {
   alarmKind_ = kind;
-  return machine_.raiseUnnumbered(macroAlarmText(kind));
+  return caller_ != nullptr ? caller_->alarm(kind) : machine_.raiseUnnumbered(stdlib::macroAlarmText(kind));
+}
+
+bool CycleRun::raise(std::string_view text) {
+  return caller_ != nullptr ? caller_->refused(text) : machine_.raiseUnnumbered(text);
 }
 
 bool CycleRun::step(const ir::CycleStatement& statement) {
@@ -140,7 +152,7 @@ bool CycleRun::step(const ir::CycleStatement& statement) {
       },
       [&](const ir::Return&) {
         returned_ = true;
-        return machine_.finish() || true;
+        return caller_ != nullptr || machine_.finish() || true;
       },
       [&](const ir::Move& node) { return move(node); },
       [&](const ir::Measure& node) { return measure(node); },
@@ -175,7 +187,7 @@ bool CycleRun::step(const ir::CycleStatement& statement) {
         if (!node.optional) machine_.pause(node.message);
         return true;
       },
-      [&](const ir::Alarm& node) { return machine_.raiseUnnumbered(node.message); },
+      [&](const ir::Alarm& node) { return raise(node.message); },
       [&](const ir::CallCycle& node) { return call(node); },
       // No front end makes one in a cycle that runs by itself.
       [&](const ir::OneOf<ir::Port, ir::Print> auto&) {
@@ -195,7 +207,7 @@ std::optional<double> CycleRun::number(const ir::ExpressionPtr& expression) {
     if (value.error == ir::ArithmeticError::NoValue)
       inconclusive("a value that the caller has left out is read");
     else
-      machine_.raiseUnnumbered(ir::describe(value.error));
+      raise(ir::describe(value.error));
     break;
   case ir::Scalar::State::Null: inconclusive("a value that the caller has left out is read"); break;
   case ir::Scalar::State::Unknown: inconclusive("a value is read that is not known here"); break;
@@ -208,7 +220,7 @@ std::optional<bool> CycleRun::decide(const ir::ConditionPtr& condition) {
   case ir::Verdict::True: return true;
   case ir::Verdict::False: return false;
   case ir::Verdict::Unknown: inconclusive("the condition reads a value that is not known here"); break;
-  case ir::Verdict::Failed: machine_.raiseUnnumbered("a condition whose arithmetic has no result"); break;
+  case ir::Verdict::Failed: raise("a condition whose arithmetic has no result"); break;
   }
   return std::nullopt;
 }
@@ -248,7 +260,7 @@ std::optional<Machine::WorkSystem> CycleRun::system(const ir::ExpressionPtr& exp
   const std::optional<double> value = number(expression);
   if (!value) return std::nullopt;
   const auto which = machine_.workSystem(*value);
-  if (!which) machine_.raiseUnnumbered(fmt::format("there is no work offset {:g}", *value));
+  if (!which) raise(fmt::format("there is no work offset {:g}", *value));
   return which;
 }
 

@@ -31,9 +31,11 @@ struct CycleInputs {
   ir::Environment values;
   double ballRadius = 3;   // of the stylus: its lowest point lies so far below the centre
   double stylusRadius = 3; // that the calibration found: taken off each measured point along X and Y
-  double overtravel = 10;  // how far a search goes on after the expected contact
+  std::optional<double> stylusRadiusY;           // where it found another one along Y
+  double overtravel = 10;                        // how far a search goes on after the expected contact
   double approachFeed = 500, measuringFeed = 50; // mm/min
-  double backOff = 0.5;                          // between the two touches of one search
+  // Between the two touches of one search; nothing: the second one begins where the first did.
+  std::optional<double> backOff = 0.5;
   double tipLength = 0;          // from the gauge line of the spindle down to the lowest point of the ball
   std::optional<double> retract; // Z of the retract plane, active work system; nothing: not known
 
@@ -57,6 +59,14 @@ struct CycleWay {
   std::uint64_t turns = 0;   // the same where the same statements ran in the same order
 };
 
+// Who runs a cycle as the meaning of one statement, and answers for its end: the run is ended by these.
+class CycleCaller {
+public:
+  virtual ~CycleCaller() = default;
+  virtual bool alarm(stdlib::MacroAlarm kind) = 0; // false
+  virtual bool refused(std::string_view why) = 0;  // by a check of the cycle, or as having no meaning; false
+};
+
 class CycleRun final : private ir::Readings {
 public:
   // All outlive the run; the machine holds the length of the probe's tool (Machine::holdTool). `nominal`:
@@ -68,6 +78,9 @@ public:
   void follow(CycleWay& way);
   // The checks, then the body: Machine::end() says how it came.
   void run();
+  // The same within a program that goes on afterwards; its watcher hears of the motions alone. false: the run
+  // has ended.
+  bool runFor(CycleCaller& caller);
 
   // The statement that runs, or at which the run ended; nullptr: none has begun.
   const ir::CycleStatement* statement() const { return at_; }
@@ -90,11 +103,14 @@ private:
   using Direction = std::array<double, 3>; // length 1
 
   // ---- CycleRun.cpp
+  bool runAll();
   bool runList(const std::vector<ir::CycleStatement>& list);
   bool step(const ir::CycleStatement& statement);
   bool spend(std::uint64_t steps);
   bool inconclusive(std::string why);
   bool alarm(stdlib::MacroAlarm kind);
+  bool raise(std::string_view text); // of what is wrong with the values; false
+  MotionWatcher* watcher() const { return caller_ == nullptr ? machine_.watcher() : nullptr; }
   bool assign(const ir::Assign& node);
   bool store(const ir::Store& node);
   bool setMode(const ir::SetMode& node);
@@ -154,6 +170,9 @@ private:
   PlannedTouch plan(const Direction& direction, double distance, const Search& search) const;
   void begin(std::span<const PlannedTouch> touches);
   void end();
+  double calibrated(std::size_t axis) const { // radius, mm
+    return axis == 1 ? inputs_.stylusRadiusY.value_or(inputs_.stylusRadius) : inputs_.stylusRadius;
+  }
   double ballAlong(const PlannedTouch& planned) const; // from its centre, or lowest point, to the contact
   // From the place that `touched` gives to the surface, along the axis.
   double surfaceFrom(std::size_t axis, double sign) const;
@@ -164,6 +183,7 @@ private:
   CycleInputs inputs_;
   const bool nominal_;
   std::uint64_t fuel_;
+  CycleCaller* caller_ = nullptr;
   const ir::CycleStatement* at_ = nullptr;
   CycleWay* way_ = nullptr;
   std::optional<ir::LabelId> jump_; // of the statement that ran

@@ -32,7 +32,7 @@ std::string sideOf(std::size_t axis, double sign) {
 // Downward the lowest point touches, upward the highest; to the side the calibrated radius counts.
 double CycleRun::surfaceFrom(std::size_t axis, double sign) const {
   if (axis == kZ) return sign > 0 ? 2 * inputs_.ballRadius : 0;
-  return sign * inputs_.stylusRadius;
+  return sign * calibrated(axis);
 }
 
 PlannedTouch CycleRun::plan(const Direction& direction, double distance, const Search& search) const {
@@ -41,15 +41,16 @@ PlannedTouch CycleRun::plan(const Direction& direction, double distance, const S
 
 double CycleRun::ballAlong(const PlannedTouch& planned) const {
   if (planned.isDown()) return 0;
-  return planned.direction[kZ] != 0 ? inputs_.ballRadius : inputs_.stylusRadius;
+  if (planned.direction[kZ] != 0) return inputs_.ballRadius;
+  return calibrated(planned.direction[0] != 0 ? 0 : 1);
 }
 
 void CycleRun::begin(std::span<const PlannedTouch> touches) {
-  if (MotionWatcher* const watcher = machine_.watcher(); watcher != nullptr) watcher->touchBegins(touches);
+  if (MotionWatcher* const watcher = this->watcher(); watcher != nullptr) watcher->touchBegins(touches);
 }
 
 void CycleRun::end() {
-  if (MotionWatcher* const watcher = machine_.watcher(); watcher != nullptr) watcher->touchEnded();
+  if (MotionWatcher* const watcher = this->watcher(); watcher != nullptr) watcher->touchEnded();
 }
 
 // false: the run has ended.
@@ -65,8 +66,12 @@ bool CycleRun::search(const Direction& direction, double travel, const Search& h
     if (!*contact) break;
     if (distance(began, touched.at) < kNoPath) return alarm(stdlib::MacroAlarm::ProbeOpen);
     if (pass > 0 || how.once) break;
-    const double back = std::min(inputs_.backOff, distance(from, touched.at));
-    aim = along(touched.at, direction, inputs_.backOff);
+    if (!inputs_.backOff) {
+      if (!goTo(from, MotionKind::Feed)) return false;
+      continue;
+    }
+    const double back = std::min(*inputs_.backOff, distance(from, touched.at));
+    aim = along(touched.at, direction, *inputs_.backOff);
     if (!goTo(along(touched.at, direction, -back), MotionKind::Feed)) return false;
   }
   return goTo(from, MotionKind::Feed);
@@ -76,9 +81,9 @@ bool CycleRun::touch(const PlannedTouch& planned, const Search& how, Touched& to
   const double ball = ballAlong(planned);
   const double travel = planned.distance - ball + planned.overtravel;
   if (!(travel > kNoPath))
-    return machine_.raiseUnnumbered("the touch has no way to go: the surface is expected at the ball, or "
-                                    "beyond it by more than the overtravel");
-  if (expected_.size() < kMostExpected) {
+    return raise("the touch has no way to go: the surface is expected at the ball, or "
+                 "beyond it by more than the overtravel");
+  if (caller_ == nullptr && expected_.size() < kMostExpected) {
     const Position at = machine_.machinePosition();
     const double low = at[kZ] - inputs_.tipLength;
     const Point3 way{planned.direction[0], planned.direction[1], planned.direction[kZ]};
@@ -114,8 +119,7 @@ bool CycleRun::surface(const ir::Measure& node) {
 bool CycleRun::touchAxis(std::size_t i, double expected, const Search& how, std::optional<double>& measured) {
   const double from = machine_.position()[i];
   if (std::abs(expected - from) < kNoPath)
-    return machine_.raiseUnnumbered(
-        "the surface is expected where the probe is; which way it lies is not known");
+    return raise("the surface is expected where the probe is; which way it lies is not known");
   const double sign = expected > from ? 1 : -1;
   // Upward the way counts from the ball's centre.
   const double centre = i == kZ && sign > 0 ? inputs_.ballRadius : 0;
@@ -127,7 +131,7 @@ bool CycleRun::touchAxis(std::size_t i, double expected, const Search& how, std:
   measured = touched.at[i] + surfaceFrom(i, sign);
   results_[kPositions[i]] = *measured;
   results_[kErrors[i]] = *measured - expected;
-  if (MotionWatcher* const watcher = machine_.watcher(); watcher != nullptr)
+  if (MotionWatcher* const watcher = this->watcher(); watcher != nullptr)
     watcher->measured({0, "surface " + sideOf(i, sign), {{std::string(1, "XYZ"[i]), expected, *measured}}});
   return true;
 }
@@ -136,7 +140,7 @@ bool CycleRun::touchAxis(std::size_t i, double expected, const Search& how, std:
 bool CycleRun::bore(const ir::Measure& node) {
   const std::optional<double> diameter = number(node.diameter);
   if (!diameter) return false;
-  if (!(*diameter > 0)) return machine_.raiseUnnumbered("a diameter that is not above 0");
+  if (!(*diameter > 0)) return raise("a diameter that is not above 0");
   const Position start = machine_.position();
   std::vector<PlannedTouch> all;
   for (const std::size_t i : {std::size_t(0), std::size_t(1)})
@@ -166,7 +170,7 @@ bool CycleRun::bore(const ir::Measure& node) {
   if (!protectedTo(start)) return false;
   results_[ir::ResultName::Size] = size;
   results_[ir::ResultName::SizeError] = size - *diameter;
-  if (MotionWatcher* const watcher = machine_.watcher(); watcher != nullptr)
+  if (MotionWatcher* const watcher = this->watcher(); watcher != nullptr)
     watcher->measured(
         {0, "bore", {{"X", start[0], *found[0]}, {"Y", start[1], *found[1]}, {"diameter", *diameter, size}}});
   if (node.setting && !set(*node.setting, found)) return false;

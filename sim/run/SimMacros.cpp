@@ -1,5 +1,6 @@
 #include "sim/run/SimMacros.h"
 
+#include "project/MacroCycles.h"
 #include "project/Programs.h"
 #include "sim/machine/Arguments.h"
 #include "sim/machine/Machine.h"
@@ -91,7 +92,8 @@ std::unique_ptr<SimMacros> SimMacros::load(const std::optional<std::string>& cho
   for (const stdlib::MacroSet* set : out->sets_) {
     const std::optional<std::string> text = stdlib::macroText(session.data(), set->name);
     if (!text) {
-      out->meanings_.emplace_back(*set, control);
+      out->cycles_.merge(project::measuringCycles({set}, session));
+      out->meanings_.emplace_back(*set, control, out->cycles_);
       continue;
     }
     const bool wanted =

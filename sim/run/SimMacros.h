@@ -3,8 +3,8 @@
 
 #include "project/ProgramLibrary.h"
 #include "project/Session.h"
-#include "sim/machine/VendorMacros.h"
 #include "sim/picture/Picture.h"
+#include "sim/vendor/VendorMacros.h"
 #include "stdlib/Control.h"
 #include "stdlib/MacroSet.h"
 
@@ -45,6 +45,7 @@ public:
 
 private:
   std::vector<const stdlib::MacroSet*> sets_; // of the session
+  MeasuringCycles cycles_;                    // that say what their calls measure
   std::deque<VendorMacros> meanings_;         // of the sets without a text
   std::set<std::uint32_t> texts_; // programs of sets with a text that the programs do not bring themselves
 };

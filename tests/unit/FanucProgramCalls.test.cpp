@@ -2,7 +2,8 @@
 #include "backends/fanuc/Program.h"
 #include "backends/fanuc/ProgramCalls.h"
 #include "frontend/macrob/Lower.h"
-#include "sim/machine/VendorMacros.h"
+#include "sim/vendor/VendorMacros.h"
+#include "tests/MeasuringCycles.h"
 #include "stdlib/DataFiles.h"
 #include "tests/unit/ContactWorld.h"
 #include "tests/unit/RunHarness.h"
@@ -158,7 +159,7 @@ TEST_CASE("calls of another set: both programs set the same offset on the same p
   const auto run = [](const std::string& text, const char* set) {
     const stdlib::Control control = *stdlib::Control::load(stdlib::DataFiles(), "fanuc-0i-md");
     const stdlib::MacroSet known = macros(set);
-    sim::VendorMacros meaning(known, control);
+    sim::VendorMacros meaning(known, control, tests::measuringCycles());
     meaning.setStylusRadius(3);
     tests::ContactWorld world(3);
     world.wall(20.3, 0, 180);

@@ -4,7 +4,8 @@
 #include "frontend/macrob/Lower.h"
 #include "frontend/macrob/Parse.h"
 #include "sim/machine/Compile.h"
-#include "sim/machine/VendorMacros.h"
+#include "sim/vendor/VendorMacros.h"
+#include "tests/MeasuringCycles.h"
 #include "stdlib/DataFiles.h"
 #include "tests/unit/MeasuredFeatures.h"
 #include "verify/Stand.h"
@@ -71,7 +72,7 @@ public:
     entry.probeOn = true;
     entry.noiseSeed = seed;
     if (set_.needsSkipPosition) entry.variables = {{520, radius}};
-    sim::VendorMacros meaning(set_, control_);
+    sim::VendorMacros meaning(set_, control_, measuringCycles());
     meaning.setStylusRadius(radius);
     stand_.setTrace(trace);
     return stand_.run(code, world, entry, stores, &meaning);

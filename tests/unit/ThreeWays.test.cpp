@@ -1,7 +1,8 @@
 // One cycle, three ways to the machine: what the post prints, and the converted program with a vendor's
 // macros by their meaning or with our own by their text. They leave the same offsets.
 #include "driver/Driver.h"
-#include "sim/machine/VendorMacros.h"
+#include "sim/vendor/VendorMacros.h"
+#include "tests/MeasuringCycles.h"
 #include "tests/GoldenRunner.h"
 #include "tests/policy/Tree.h"
 #include "tests/unit/OwnMacros.h"
@@ -64,7 +65,7 @@ Result runs(const std::string& text, const std::string& control, const std::stri
             ContactWorld& world) {
   const stdlib::Control profile = controlOf(control);
   const stdlib::MacroSet set = *stdlib::MacroSet::load(stdlib::DataFiles(), macros);
-  sim::VendorMacros meaning(set, profile);
+  sim::VendorMacros meaning(set, profile, measuringCycles());
   meaning.setStylusRadius(kBall);
   LongTool signal(world, kLength);
   const MacroRun run(text, profile, &signal, &meaning);

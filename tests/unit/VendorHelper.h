@@ -3,7 +3,8 @@
 
 #include "ContactWorld.h"
 #include "SimHarness.h"
-#include "sim/machine/VendorMacros.h"
+#include "sim/vendor/VendorMacros.h"
+#include "tests/MeasuringCycles.h"
 
 #include <cstdlib>
 
@@ -12,7 +13,7 @@ namespace dotek::tests {
 struct VendorCase : Simulation {
   explicit VendorCase(std::string_view macros = "inspection-plus", double ball = 3,
                       std::optional<double> calibrated = 3, std::string_view control = "fanuc-0i-md")
-      : Simulation(control), set(*stdlib::MacroSet::load(stdlib::DataFiles(), macros)), meaning(set, profile),
+      : Simulation(control), set(*stdlib::MacroSet::load(stdlib::DataFiles(), macros)), meaning(set, profile, measuringCycles()),
         world(ball), trace([this](std::string_view text) { lines += text; }) {
     if (calibrated) meaning.setStylusRadius(*calibrated);
     machine->setSkipSignal(&world);

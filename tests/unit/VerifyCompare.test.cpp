@@ -1,6 +1,7 @@
 // Two runs side by side: each aspect of a comparison tells a difference, and only that.
 #include "sim/machine/Compile.h"
-#include "sim/machine/VendorMacros.h"
+#include "sim/vendor/VendorMacros.h"
+#include "tests/MeasuringCycles.h"
 #include "tests/unit/RunHarness.h"
 #include "verify/Compare.h"
 #include "verify/Stand.h"
@@ -19,7 +20,7 @@ struct OneRun {
                   verify::Entry entry = {}, verify::Stand::Way way = verify::Stand::Way::Run,
                   bool passUnstated = false)
       : profile(controlOf("fanuc-31i-b")), set(*stdlib::MacroSet::load(stdlib::DataFiles(), macros)),
-        meaning(set, profile), parsed("%\nO1\n" + blocks + "M30\n%\n") {
+        meaning(set, profile, measuringCycles()), parsed("%\nO1\n" + blocks + "M30\n%\n") {
     file = frontend::macrob::lower(parsed.file, profile, parsed.sources, parsed.diagnostics);
     CAPTURE(blocks);
     CAPTURE(parsed.told());

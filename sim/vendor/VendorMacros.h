@@ -2,10 +2,13 @@
 // (docs/vendor-macros.md). Whatever no source tells ends the run as inconclusive, naming the macro.
 #pragma once
 
+#include "ir/Cycle.h"
 #include "sim/machine/MacroMeaning.h"
 #include "stdlib/Control.h"
 #include "stdlib/MacroSet.h"
 
+#include <functional>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -13,6 +16,9 @@
 #include <vector>
 
 namespace dotek::sim {
+
+// The cycles that say what calls measure, by the names of stdlib::libraryCycle() and islandCycle().
+using MeasuringCycles = std::map<std::string, ir::Cycle, std::less<>>;
 
 // What one run remembers between calls.
 struct VendorMemory {
@@ -24,13 +30,11 @@ struct VendorMemory {
   std::vector<bool> results; // by variable: what calls leave that measure, once it is asked for
 };
 
-// What an alarm without a text of its own tells the operator.
-std::string_view macroAlarmText(stdlib::MacroAlarm alarm);
-
 class VendorMacros final : public MacroMeaning {
 public:
-  // `set` and `control` outlive the object. One object serves one run.
-  VendorMacros(const stdlib::MacroSet& set, const stdlib::Control& control) : set_(set), control_(control) {}
+  // All outlive the object. One object serves one run.
+  VendorMacros(const stdlib::MacroSet& set, const stdlib::Control& control, const MeasuringCycles& cycles)
+      : set_(set), control_(control), cycles_(cycles) {}
 
   // The radius, mm, that the calibration of the stylus would have found. Without it, and with empty variables
   // of the calibration, the macros count with 0 as on a machine that was never calibrated.
@@ -54,6 +58,7 @@ private:
 
   const stdlib::MacroSet& set_;
   const stdlib::Control& control_;
+  const MeasuringCycles& cycles_;
   VendorMemory memory_;
 };
 

@@ -1,13 +1,15 @@
 // What a call leaves: tolerances that stop, offsets, results.
 #include "sim/machine/Measurement.h"
-#include "sim/machine/VendorRun.h"
 #include "stdlib/KeptResults.h"
+#include "tests/oracle/VendorRun.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
-namespace dotek::sim {
+namespace dotek::oracle {
+
+using namespace dotek::sim;
 
 using stdlib::Intent;
 using stdlib::MacroAlarm;
@@ -269,4 +271,4 @@ void VendorRun::writeResults() {
   }
 }
 
-} // namespace dotek::sim
+} // namespace dotek::oracle

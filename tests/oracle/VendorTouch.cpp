@@ -1,11 +1,13 @@
 // Touching: where the ball's centre is at the contact, and how the probe gets there.
 #include "sim/machine/Paths.h"
-#include "sim/machine/VendorRun.h"
+#include "tests/oracle/VendorRun.h"
 
 #include <cmath>
 #include <fmt/format.h>
 
-namespace dotek::sim {
+namespace dotek::oracle {
+
+using namespace dotek::sim;
 
 namespace {
 
@@ -153,4 +155,4 @@ bool VendorRun::touchPair(const Position& middle, const Direction& direction, do
   return true;
 }
 
-} // namespace dotek::sim
+} // namespace dotek::oracle

@@ -1,14 +1,16 @@
-#include "sim/machine/VendorMacros.h"
+#include "tests/oracle/VendorMacros.h"
 
 #include "sim/machine/Arguments.h"
-#include "sim/machine/VendorRun.h"
 #include "stdlib/MacroLimits.h"
 #include "stdlib/ReadCall.h"
+#include "tests/oracle/VendorRun.h"
 
 #include <fmt/format.h>
 #include <vector>
 
-namespace dotek::sim {
+namespace dotek::oracle {
+
+using namespace dotek::sim;
 
 using stdlib::Intent;
 
@@ -203,4 +205,4 @@ bool VendorRun::features() {
   return notKnown("how it measures is in no source");
 }
 
-} // namespace dotek::sim
+} // namespace dotek::oracle

@@ -2,12 +2,14 @@
 #pragma once
 
 #include "sim/machine/Machine.h"
-#include "sim/machine/VendorMacros.h"
+#include "tests/oracle/VendorMacros.h"
 
 #include <array>
 #include <map>
 
-namespace dotek::sim {
+namespace dotek::oracle {
+
+using namespace dotek::sim;
 
 // A direction in the space of X, Y, Z, of length 1.
 using Direction = std::array<double, 3>;
@@ -104,4 +106,4 @@ private:
   std::optional<double> size_, expectedSize_, angleError_;
 };
 
-} // namespace dotek::sim
+} // namespace dotek::oracle

@@ -1,10 +1,12 @@
 // What each kind of call touches, and what it finds.
 #include "ir/Arithmetic.h"
-#include "sim/machine/VendorRun.h"
+#include "tests/oracle/VendorRun.h"
 
 #include <cmath>
 
-namespace dotek::sim {
+namespace dotek::oracle {
+
+using namespace dotek::sim;
 
 using stdlib::Intent;
 
@@ -213,4 +215,4 @@ bool VendorRun::threePoints() {
   return true;
 }
 
-} // namespace dotek::sim
+} // namespace dotek::oracle
