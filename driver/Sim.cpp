@@ -408,6 +408,7 @@ private:
     constexpr std::size_t kMostWithout = 5000; // blocks: what shows it is among the first ones
     stdlib::LatheSigns signs;
     frontend::nc::Scanner scanner(chunks);
+    scanner.skipsLeader();
     ir::NcWords words;
     for (std::size_t n = 0; scanner.next(words) == frontend::nc::Scanner::Result::Block; ++n) {
       signs.look(words, scanner.line());
@@ -422,6 +423,7 @@ private:
     std::optional<sim::Trace> trace;
     if (options_.trace) machine.setTrace(&trace.emplace(options_.trace));
     frontend::nc::Scanner scanner(chunks);
+    scanner.skipsLeader();
     setPlace(scanner, machine);
     world_->attach(machine);
     ir::NcWords words;
@@ -436,7 +438,9 @@ private:
       }
       if (!machine.execute(words)) break;
     }
+    if (result == Result::End && machine.running()) machine.finish();
     machine.setTrace(nullptr);
+    sim::reportLeader(options_.program, scanner, session_);
     trace.reset();
     if (result == Result::Error)
       sim::reportScanError(options_.program, scanner, chunks, session_);

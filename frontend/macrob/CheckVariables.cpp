@@ -2,6 +2,8 @@
 #include "frontend/macrob/Check.h"
 #include "frontend/macrob/Format.h"
 #include "frontend/macrob/Walk.h"
+#include "stdlib/ControlFacts.h"
+#include "stdlib/DataFiles.h"
 #include "stdlib/VariableNumbers.h"
 
 #include <algorithm>
@@ -85,6 +87,16 @@ std::set<std::string> subscriptsOf(const CheckedProgram& input) {
 
 // ---- numbers
 
+// What a built-in profile says of its common variables, where nobody has stated it: "inferred, K: .."
+static std::string inferredRanges(const stdlib::Control& control) {
+  if (control.origin != "built in") return {};
+  for (const stdlib::ControlFact& fact : stdlib::controlFacts(stdlib::DataFiles(), control.name))
+    if (fact.section == "common" && fact.first == 100 &&
+        (fact.grade == "inferred" || fact.grade == "assumed"))
+      return fmt::format("{}, {}", fact.grade, fact.source);
+  return {};
+}
+
 void variableOutOfRange(const CheckedProgram& input, Report& report) {
   const stdlib::Control* control = input.control;
   std::vector<std::pair<std::uint32_t, SourceRange>> found; // each number at its first place
@@ -111,17 +123,26 @@ void variableOutOfRange(const CheckedProgram& input, Report& report) {
           judge(variable->variable, print->range);
   }
   if (found.empty()) return;
-  // #200 to #499 are an option of some controls; only a profile says that this one has none.
-  const bool option = control == nullptr && std::all_of(found.begin(), found.end(), [](const auto& one) {
-                        return one.first >= 200 && one.first <= 499;
-                      });
-  if (option) {
-    Diagnostic& told = report.at(found.front().second,
-                                 "#{} is of the range #200 to #499, which Fanuc controls have as an option "
-                                 "alone; without it the control "
-                                 "stops with alarm 115; name the machine with `--control`, or take a "
-                                 "variable of #100 to #199 or #500 to #999",
-                                 found.front().first);
+  // #200 to #499 are an option of some controls; only a profile that states it says that this one has none.
+  const bool option = std::all_of(found.begin(), found.end(),
+                                  [](const auto& one) { return one.first >= 200 && one.first <= 499; });
+  const std::string inferred = option && control != nullptr ? inferredRanges(*control) : "";
+  if (option && (control == nullptr || !inferred.empty())) {
+    Diagnostic& told =
+        control == nullptr
+            ? report.at(found.front().second,
+                        "#{} is of the range #200 to #499, which Fanuc controls have as an option "
+                        "alone; without it the control "
+                        "stops with alarm 115; name the machine with `--control`, or take a "
+                        "variable of #100 to #199 or #500 to #999",
+                        found.front().first)
+            : report.at(
+                  found.front().second,
+                  "#{} is none of the common variables that `{}` lists ({}); the control stops with "
+                  "alarm 115 unless the machine has it as an option; where it has, list it in a profile "
+                  "of your own (`dotek new control NAME --from {}`), else take a variable of #100 to "
+                  "#199 or #500 to #999",
+                  found.front().first, control->name, inferred, control->name);
     told.severity = Severity::Warning;
     for (std::size_t i = 1; i < found.size(); ++i)
       told.note(found[i].second, fmt::format("#{} first appears here", found[i].first));

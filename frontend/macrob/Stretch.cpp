@@ -144,7 +144,10 @@ public:
     // Up to here the moves may have been rapid ones.
     if (move.code >= 0 && motion_ < 0)
       fell_ = belowZero_ = atZero_ = negative_ = cutsLowered_ = cutsAfterZ_ = false;
-    if (move.code >= 0) motion_ = move.code;
+    if (move.code >= 0) {
+      motion_ = move.code;
+      context_[kCode] = line;
+    }
     const std::size_t kind = move.letters | (static_cast<std::uint32_t>(motion_ + 1) << kLetters.size());
     if (!seen_.at(kind)) {
       seen_.at(kind) = true;
@@ -180,8 +183,10 @@ public:
     for (const std::optional<TextLine>& one : lastWith_)
       keep(one);
     for (const auto& list : {least_, most_})
-      for (const Extreme& one : list)
+      for (const Extreme& one : list) {
+        keepAll(one.context);
         keep(one.line);
+      }
     for (const std::optional<TextLine>& one : {rapid_, high_, low_})
       keep(one);
     const auto before = [](const TextLine& a, const TextLine& b) { return a.begin < b.begin; };
@@ -199,24 +204,31 @@ public:
   }
 
 private:
+  // What decides how a line that is kept is read: the code of motion before it, the Z, and the feed down that
+  // follows the last rapid move along Z.
+  enum : std::size_t { kCode, kZLine, kRapidZ, kFallsFrom, kFallsTo, kContext };
+  using Context = std::array<std::optional<TextLine>, kContext>;
   struct Extreme {
     std::int64_t value = 0;
     std::optional<TextLine> line;
+    Context context;
   };
 
-  void keep(std::optional<TextLine> line) {
+  void keep(const std::optional<TextLine>& line) {
     if (line) kept_.push_back(*line);
   }
-
-  // And the Z before it.
-  void keepBoth(TextLine line) {
-    keep(withZ_);
-    keep(line);
+  void keepAll(const Context& context) {
+    for (const std::optional<TextLine>& one : context)
+      keep(one);
+  }
+  void keep(TextLine line) {
+    keepAll(context_);
+    kept_.push_back(line);
   }
 
   void extremes(std::size_t axis, std::int64_t value, TextLine line) {
-    if (!least_.at(axis).line || value < least_.at(axis).value) least_.at(axis) = {value, line};
-    if (!most_.at(axis).line || value > most_.at(axis).value) most_.at(axis) = {value, line};
+    if (!least_.at(axis).line || value < least_.at(axis).value) least_.at(axis) = {value, line, context_};
+    if (!most_.at(axis).line || value > most_.at(axis).value) most_.at(axis) = {value, line, context_};
   }
 
   // A rapid move along Z takes the tool up for whoever looks whether it is down.
@@ -224,24 +236,31 @@ private:
     const bool feeds = motion_ != 0;
     const bool falls = feeds && z_ && z < *z_;
     if (falls && !std::exchange(fell_, true)) {
-      keepBoth(line);
+      keep(line);
       cutsLowered_ = false; // what fell before may have been a rapid move
     }
+    if (falls && !lowered_) {
+      context_[kFallsFrom] = context_[kZLine];
+      context_[kFallsTo] = line;
+    }
     lowered_ = lowered_ || falls;
-    if (falls && z < 0 && !std::exchange(belowZero_, true)) keepBoth(line);
+    if (falls && z < 0 && !std::exchange(belowZero_, true)) keep(line);
     if (feeds && z <= 0 && !std::exchange(atZero_, true)) keep(line);
     if (feeds && z < 0 && !std::exchange(negative_, true)) keep(line);
     if (!feeds) {
       lowered_ = false;
+      context_[kFallsFrom].reset();
+      context_[kFallsTo].reset();
+      context_[kRapidZ] = line;
       rapid_ = line;
       high_.reset();
       low_.reset();
     } else if (falls && !low_) {
-      high_ = withZ_;
+      high_ = context_[kZLine];
       low_ = line;
     }
     z_ = z;
-    withZ_ = line;
+    context_[kZLine] = line;
   }
 
   // Its words, without a number.
@@ -285,7 +304,8 @@ private:
   std::array<std::optional<TextLine>, kLetters.size()> lastWith_;
   std::array<Extreme, kAxes> least_, most_;
   std::optional<std::int64_t> z_;
-  std::optional<TextLine> withZ_, rapid_, high_, low_;
+  Context context_;
+  std::optional<TextLine> rapid_, high_, low_;
   // Happened at feed: Z fell, fell below 0, is 0 or less, less than 0, a move in the plane after it fell.
   bool fell_ = false, belowZero_ = false, atZero_ = false, negative_ = false, cutsLowered_ = false,
        cutsAfterZ_ = false;

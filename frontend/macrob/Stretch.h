@@ -18,8 +18,9 @@ struct TextLine {
 // What is left out is a line of G0 or G1 as before, X, Y, Z, A, B, C with a point and F, each once, among
 // others like it. Kept are the first and the last kEdge lines of a stretch, and within it the first one with
 // a set of letters, the last one with each letter, those with the least and the largest X, Y and Z, and those
-// with which a feed first goes down along Z, to 0 and below it. So modes, positions after it, what is in the
-// way and what is wrong with a block are the same. It is for the caller to know that no jump leads into it
+// with which a feed first goes down along Z, to 0 and below it; beside each of them the code of motion before
+// it, the Z before it and the one of the last rapid move. So modes, positions after it, what is in the way and
+// what is wrong with a block are the same. It is for the caller to know that no jump leads into it
 // and that numbers are coordinates, not distances.
 class Stretch {
 public:

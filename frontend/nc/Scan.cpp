@@ -68,6 +68,7 @@ bool Scanner::refill() {
   end_ = chunks_.end();
   if (state == LineChunks::State::Chunk) {
     if (first && end_ - at_ >= 3 && std::memcmp(at_, "\xEF\xBB\xBF", 3) == 0) at_ += 3;
+    if (first && skipsLeader_) skipLeader();
     return true;
   }
   stopped_ = true;
@@ -79,6 +80,39 @@ bool Scanner::refill() {
   }
   end_ = at_;
   return false;
+}
+
+// Text before the first `%` belongs to the tape's leader where no program begins in it and the mark does not
+// end the text.
+void Scanner::skipLeader() {
+  std::uint64_t lines = 0, named = 0;
+  std::string_view name;
+  const char* p = at_;
+  for (; p < end_; ++p) {
+    const char* const begin = skipBlanks(p);
+    const std::uint8_t kind = classOf(*begin);
+    if (kind == kMark) break;
+    if (kind == kO || kind == kColon || kind == kName) return;
+    p = begin;
+    while (!isLineEnd(*p))
+      ++p;
+    ++lines;
+    if (named == 0 && p != begin) {
+      named = lines;
+      name = {begin, static_cast<std::size_t>(p - begin)};
+    }
+    if (*p == '\r' && p[1] == '\n') ++p;
+  }
+  if (named == 0 || p >= end_) return;
+  const char* rest = skipBlanks(p) + 1;
+  while (rest < end_ && (classOf(*rest) == kBlank || isLineEnd(*rest)))
+    ++rest;
+  if (rest >= end_) return;
+  constexpr std::size_t kMost = 200;
+  leader_ = name.substr(0, kMost);
+  leaderLine_ = named;
+  line_ = lines;
+  at_ = p;
 }
 
 Scanner::Result Scanner::fail(ScanFault fault, const char* begin, const char* end) {
@@ -116,8 +150,15 @@ Scanner::Result Scanner::careful(NcWords& words) {
       case kMark:
         if ((present | marks) != 0) return fail(ScanFault::LateMark, p, p + 1);
         marks = NcWords::ProgramMark;
-        ++p;
-        continue;
+        p = skipBlanks(p + 1);
+        kind = classOf(*p);
+        if (kind != kO && kind != kColon && kind != kName) continue;
+        // `%O100`: the rest of the line is a block of its own.
+        at_ = p;
+        words.present = words.pointed = words.repeated = words.mostPlaces = words.gCount = words.mCount = 0;
+        words.marks = NcWords::ProgramMark;
+        words.line = line_--;
+        return Result::Block;
       case kSlash: {
         const char* const slash = p;
         if ((present & ~ir::addressBit('N')) != 0 || marks != 0)

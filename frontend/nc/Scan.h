@@ -52,18 +52,26 @@ public:
   // Bytes of the line last read, without its end; good until the next call.
   std::string_view lineText() const;
   std::uint64_t line() const { return line_; }
+  // From now on what precedes the first `%` is skipped, as controls do, where it ends in the first chunk.
+  void skipsLeader() { skipsLeader_ = true; }
+  // The first line of it; "": there is none.
+  std::string_view leader() const { return leader_; }
+  std::uint64_t leaderLine() const { return leaderLine_; }
 
 private:
   bool quick(ir::NcWords& words);
   Result careful(ir::NcWords& words);
   Result fail(ScanFault fault, const char* begin, const char* end);
   bool refill();
+  void skipLeader();
 
   LineChunks& chunks_;
   const char* at_ = nullptr;
   const char* end_ = nullptr;
   const char* lineStart_ = nullptr;
-  std::uint64_t line_ = 0;
+  std::uint64_t line_ = 0, leaderLine_ = 0;
+  std::string leader_;
+  bool skipsLeader_ = false;
   bool stopped_ = false;
   bool wide_, quick_;
   ScanError error_;

@@ -1,8 +1,10 @@
 #include "sim/machine/Machine.h"
 
 #include "sim/machine/Axes.h"
+#include "sim/machine/MachineOffset.h"
 #include "sim/machine/Refusals.h"
 #include "stdlib/AlarmMeaning.h"
+#include "stdlib/CodeTitles.h"
 
 #include <algorithm>
 #include <bit>
@@ -62,6 +64,7 @@ Machine::Machine(const stdlib::Control& control, Dialect dialect)
     state_.insert(state_.end(), range.last - range.first + 1,
                   range.null ? kNull : range.initial.value_or(kFresh));
   if (control.window) pmc_.assign(control.window->bytes, 0);
+  roundsCorners_ = stdlib::roundsCorners(control);
   stack_.reserve(64);
   stack_.emplace_back();
 }
@@ -205,10 +208,10 @@ bool Machine::executeLong(const NcWords& w) {
   }
   if (trace_ != nullptr) trace_->at(w.line);
   if ((w.marks & NcWords::ProgramMark) != 0) {
-    return blocks_ == 0 || stop(Ending::TextEnd);
+    return blocks_ == 0 || finish();
   }
   if ((w.marks & NcWords::ProgramName) != 0) {
-    if (blocks_ != 0) return stop(Ending::TextEnd);
+    if (blocks_ != 0) return finish();
     if (w.has('O')) {
       if (!(w.of('O') >= 0 && w.of('O') <= control_->programLast))
         return inconclusive(
@@ -228,13 +231,14 @@ bool Machine::executeLong(const NcWords& w) {
   if (!running() || !checkWords(words) || !runBlock(words)) return false;
   const bool odd = turning_ != nullptr || (modes_[kCanned] | modes_[kUnits]) != 0 || uncertain_ != 0 ||
                    motionForgotten_ || feedForgotten_ || watcher_ != nullptr || rotation_.on() ||
-                   afterRotation_ != 0;
+                   afterRotation_ != 0 || offsetsPath();
   if (!running()) return false; // who watches has ended it
   long_ = odd ? 1 : 0;
   return true;
 }
 
 bool Machine::runBlock(const NcWords& w) {
+  if (offsets_.active() && !OffsetWork(*this).before(w)) return false;
   if (!settings(w) || !miscellaneous(w)) return false;
   if (block_.endsRotation) rotationOff();
   if (!changeSystem(w) || !changeToolLength(w)) return false;
@@ -245,7 +249,13 @@ bool Machine::runBlock(const NcWords& w) {
   } else if (!move(w)) {
     return false;
   }
+  if (offsets_.active()) OffsetWork(*this).after(w);
   return stops(w);
+}
+
+bool Machine::finish() {
+  if (offsets_.active()) OffsetWork(*this).atEnd();
+  return running() && stop(Ending::TextEnd);
 }
 
 // Puts the modal codes of the block in force and notes the others.
@@ -303,7 +313,10 @@ bool Machine::readCodes(const NcWords& w) {
     if (const Code* off = table_.find(Function::CannedCycleOff); off != nullptr)
       groups_[off->group] = off->tenths;
   }
-  if (modes_[kCanned] == 0) hasR_ = hasDepth_ = false;
+  if (modes_[kCanned] == 0) {
+    hasR_ = hasDepth_ = false;
+    cyclePeck_ = cycleDwell_ = 0;
+  }
   for (std::uint32_t i = 0; i < w.mCount; ++i) {
     const Code& code = table_.m(w.m[i] == NcWords::kNoCode ? 0x0FFFFFFF : w.m[i]);
     if (w.m[i] == NcWords::kNoCode) return inconclusive("it is no code of a control", 'M', i);

@@ -16,6 +16,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -72,6 +73,21 @@ public:
 };
 
 struct PlaneAxes;
+struct OffsetQueue;
+
+// Of a path that cutter compensation offsets: the moves that wait for the next one.
+class OffsetState {
+public:
+  OffsetState();
+  OffsetState(const OffsetState& other);
+  OffsetState& operator=(const OffsetState& other);
+  ~OffsetState();
+  bool active() const { return queue_ != nullptr; }
+
+private:
+  friend class OffsetWork;
+  std::unique_ptr<OffsetQueue> queue_;
+};
 
 class Machine {
 public:
@@ -90,6 +106,12 @@ public:
   MotionWatcher* watcher() const { return watcher_; }
   void setCallLimit(std::uint32_t calls) { callLimit_ = calls; }        // calls within calls
   void setBlockDelete(std::uint32_t levels) { deleteLevels_ = levels; } // bit n: the switch of `/n` is on
+
+  // Cutter compensation: an outside corner is an arc about it. Else the control prolongs the moves, as a
+  // Fanuc does by default.
+  void roundOffsetCorners(bool round) { roundsCorners_ = round; }
+  // The motions that a watcher sees are those of the offset path.
+  bool offsetsPath() const;
 
   std::uint32_t blockDelete() const { return deleteLevels_; }
 
@@ -311,7 +333,7 @@ public:
   bool raise(stdlib::Alarm alarm, char letter = 0);                             // false
   bool raise(std::uint32_t n, std::string_view text);                           // #3000 = n (text); false
   void message(double number, std::string_view text);                           // #3006
-  bool finish() { return stop(Ending::TextEnd); }                               // false
+  bool finish();                                                                // false
   bool overLimit(std::string what);                                             // false
   bool inconclusive(std::string why, char letter = 0, std::uint32_t which = 0); // false
   bool meaningless(std::string why, char letter = 0); // the same, because of an argument's value
@@ -319,6 +341,9 @@ public:
   void advance(double seconds) { seconds_ += seconds; }
 
 private:
+  friend class OffsetWork; // MachineOffset.cpp
+  double
+  offsetRadius() const;     // by D in force, mm to the left; 0: none, or the profile does not say where it is
   bool stop(Ending ending); // false
   // Axes whose position is lost by this code, which runs now.
   void lose(std::uint32_t axes, std::string_view code);
@@ -360,6 +385,9 @@ private:
   bool leg(std::string_view action, MotionKind kind, const Position& end);
   bool arc(const ir::NcWords& words, const Position& end);
   bool plainArc(const ir::NcWords& words, const PlaneAxes& plane, const Position& end) const;
+  // To `end`, about a centre that lies by `first` and `second` from here.
+  void arcTo(const PlaneAxes& plane, const Position& end, std::uint32_t axes, double first, double second);
+  bool cyclePeck(const ir::NcWords& words); // Q and P of a canned cycle; false: the run has ended
 
   // Of the block that runs, along the axis.
   bool isIncremental(std::size_t axis) const {
@@ -453,6 +481,9 @@ private:
   // Canned cycles: the level at the cycle's begin, and what stays in force within it.
   double initialLevel_ = 0, cycleR_ = 0, cycleDepth_ = 0;
   bool hasR_ = false, hasDepth_ = false;
+  double cyclePeck_ = 0, cycleDwell_ = 0; // mm; seconds
+  OffsetState offsets_;
+  bool roundsCorners_ = false;
   double seconds_ = 0, timerBase_ = 0, hoursBase_ = 0;
   // Of a lathe: the block with increments as words of their axes; ends and taper that the single cycle in
   // force repeats; the return after a peck by axis, which the first of two blocks gives.

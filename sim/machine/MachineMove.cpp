@@ -1,6 +1,8 @@
 // Motion: where a block ends, and what keeps the machine from getting there.
 #include "sim/machine/Axes.h"
 #include "sim/machine/Machine.h"
+#include "sim/machine/MachineOffset.h"
+#include "stdlib/CodeTitles.h"
 
 #include <algorithm>
 #include <bit>
@@ -105,6 +107,13 @@ bool Machine::move(const NcWords& w) {
       return inconclusive("where the arc begins is not known", 'G');
     return arc(w, end);
   }
+  if (offsetsPath()) {
+    const PlaneAxes& plane = kPlanes[modes_[kPlane]];
+    if ((unknown & (1u << plane.first | 1u << plane.second)) != 0)
+      return inconclusive("where the move begins is not known, under cutter compensation" + lostText(unknown),
+                          'G');
+    return OffsetWork(*this).move(end, movedBy(w), std::nullopt);
+  }
   if (trace_ != nullptr)
     traceMove(modes_[kMotion] == kRapid    ? "rapid"
               : modes_[kMotion] == kThread ? "thread"
@@ -156,6 +165,13 @@ bool Machine::arc(const NcWords& w, const Position& end) {
       return inconclusive("how far the radius may be off is not known", 'G');
     if (arcTolerance_ >= 0 && difference > arcTolerance_) return raise(Alarm::ArcRadius);
   }
+  if (offsetsPath()) return OffsetWork(*this).move(end, movedBy(w), std::array<double, 2>{first, second});
+  arcTo(plane, end, movedBy(w), first, second);
+  return true;
+}
+
+void Machine::arcTo(const PlaneAxes& plane, const Position& end, std::uint32_t axes, double first,
+                    double second) {
   if (trace_ != nullptr) {
     trace_->begin(modes_[kMotion] == kArcClockwise ? "arc-cw" : "arc-ccw").text(plane.name);
     trace_->position(knownOf(end, uncertain_), shown_);
@@ -166,8 +182,7 @@ bool Machine::arc(const NcWords& w, const Position& end) {
   }
   const Position begin = work_;
   work_ = end;
-  if (watcher_ != nullptr) tellArc(plane, movedBy(w), first, second, begin);
-  return true;
+  if (watcher_ != nullptr) tellArc(plane, axes, first, second, begin);
 }
 
 bool Machine::oneShot(const NcWords& w) {
@@ -232,9 +247,21 @@ bool Machine::reference(const NcWords& w, bool first) {
   if (modes_[kComp] != 0) return inconclusive("a reference return under cutter compensation", 'G');
   if (w.has('P') && !(w.of('P') >= 2 && w.of('P') <= 4))
     return inconclusive("reference points are P2 to P4", 'P');
-  if ((w.present & kAxisBits) == 0)
-    return inconclusive(
-        "a reference return without axes: some controls move all axes, others none; name the axes", 'G');
+  if ((w.present & kAxisBits) == 0) {
+    const Code* const code = table_.find(first ? Function::ReferenceReturn : Function::SecondReferenceReturn);
+    const stdlib::CodeInfo* const info = code == nullptr ? nullptr : control_->find('G', code->tenths);
+    if (info == nullptr || !stdlib::returnsAllAxes(*info))
+      return inconclusive(
+          "a reference return without axes: some controls move all axes, others none; name the axes", 'G');
+    NcWords all = w; // each straight to its reference point
+    for (std::size_t i = 0; i < kAxes; ++i) {
+      if (i >= 3 && (shown_ >> i & 1) == 0) continue;
+      all.present |= ir::addressBit(kAxisLetters[i]);
+      all.value[slotOf(kAxisLetters[i])] = 0;
+      block_.increments |= 1u << i;
+    }
+    return reference(all, first);
+  }
   moved_ = true;
   Position via;
   const std::uint32_t unknown = uncertain_;
@@ -357,6 +384,7 @@ bool Machine::cannedCycle(const NcWords& w) {
     initialLevel_ = work_[depth];
   }
   const std::uint32_t drills = (w.present & kAxisBits) | (w.present & ir::addressBit('R'));
+  if (!cyclePeck(w)) return false;
   if (drills == 0) return true;
   moved_ = true;
   const bool incremental = modes_[kDistance] != 0;
@@ -403,19 +431,29 @@ bool Machine::cannedCycle(const NcWords& w) {
       trace_->begin("cycle").text(code == nullptr ? "?" : fmt::format("G{}", code->tenths / 10));
       Position bottom = at;
       bottom[depth] = cycleDepth_;
-      trace_->position(knownOf(bottom, uncertain_), shown_)
-          .word("R", cycleR_)
-          .word("F", feed_)
-          .text("ends")
-          .position(knownOf(at, uncertain_), shown_)
-          .end();
+      trace_->position(knownOf(bottom, uncertain_), shown_).word("R", cycleR_);
+      if (cyclePeck_ > 0) trace_->word("Q", cyclePeck_);
+      if (cycleDwell_ > 0) trace_->word("P", cycleDwell_);
+      trace_->word("F", feed_).text("ends").position(knownOf(at, uncertain_), shown_).end();
     }
     if (watcher_ != nullptr) {
       tellHole(at, movedBy(w), depth);
       if (!running()) return false;
     }
+    seconds_ += cycleDwell_;
     work_ = at;
   }
+  return true;
+}
+
+// Q is how deep a peck goes, P the dwell at the bottom; both stay in force until the cycle ends.
+bool Machine::cyclePeck(const NcWords& w) {
+  if (w.has('Q')) cyclePeck_ = std::abs(lengthOf(w, 'Q'));
+  if (!w.has('P') || (block_.slots >> kSystem & 1) != 0) return true;
+  const double value = w.of('P');
+  if (!(value >= 0)) return inconclusive("a dwell is not below 0", 'P');
+  const bool seconds = control_->dwellLetter == 'P' && (w.pointed & ir::addressBit('P')) != 0;
+  cycleDwell_ = seconds ? value : value / 1000;
   return true;
 }
 

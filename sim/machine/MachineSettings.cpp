@@ -1,6 +1,7 @@
 // What a block sets: feed, spindle, coolant, tool, offsets, systems of coordinates.
 #include "sim/machine/Axes.h"
 #include "sim/machine/Machine.h"
+#include "sim/machine/MachineOffset.h"
 #include "sim/machine/Measurement.h"
 #include "sim/machine/Place.h"
 #include "sim/machine/Refusals.h"
@@ -152,6 +153,8 @@ bool Machine::stops(const NcWords& w) {
     case Function::ProgramEnd:
     case Function::Return:
       if (table_.m(w.m[i]).function == Function::Return) return stop(Ending::Return);
+      if (offsets_.active()) OffsetWork(*this).atEnd();
+      if (!running()) return false;
       if (trace_ != nullptr) trace_->begin("end").end();
       return stop(Ending::ProgramEnd);
     default: break;

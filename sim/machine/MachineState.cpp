@@ -65,10 +65,11 @@ std::vector<double> Machine::snapshot() const {
   out.insert(out.end(), modes_.begin(), modes_.end());
   out.insert(out.end(), groups_.begin(), groups_.end());
   out.insert(out.end(), modalWords_.begin(), modalWords_.end());
-  out.insert(out.end(), {feed_, speed_, static_cast<double>(spindle_), static_cast<double>(coolant_),
-                         toolLength_, static_cast<double>(toolNumber_), static_cast<double>(probe_),
-                         static_cast<double>(uncertain_), rotation_.degrees(), initialLevel_, cycleR_,
-                         cycleDepth_, seconds_, static_cast<double>(lastSkip_)});
+  out.insert(out.end(),
+             {feed_, speed_, static_cast<double>(spindle_), static_cast<double>(coolant_), toolLength_,
+              static_cast<double>(toolNumber_), static_cast<double>(probe_), static_cast<double>(uncertain_),
+              static_cast<double>(offsets_.active()), rotation_.degrees(), initialLevel_, cycleR_,
+              cycleDepth_, seconds_, static_cast<double>(lastSkip_)});
   if (turning_ == nullptr) return out;
   add(cycleEnd_);
   out.insert(out.end(), {cycleTaper_, static_cast<double>(cycleAxes_)});
@@ -141,6 +142,7 @@ bool Machine::writeState(std::uint32_t number, const Place& place, double value,
       if (range.word && value != 0 && value != 1)
         return inconclusive(fmt::format("#{} is a signal; it is set to 0 or 1", number));
       state_[place.index] = value;
+      if (modes_[kComp] != 0) long_ = 1; // it may be the radius in force
       return true;
     }
     if (!(value >= 0 && value < std::ldexp(1.0, static_cast<int>(bits))) || value != std::floor(value))

@@ -170,7 +170,7 @@ std::optional<double> Machine::readSystem(std::uint32_t number, const Place& pla
   using Kind = Place::Kind;
   const auto position = [&](const Position& of, bool exact) -> std::optional<double> {
     // Under cutter compensation the tool's centre does not appear where the program says.
-    if ((uncertain_ >> place.axis & 1) != 0 || (exact && modes_[kComp] != 0)) {
+    if ((uncertain_ >> place.axis & 1) != 0 || (exact && (modes_[kComp] != 0 || offsets_.active()))) {
       inconclusive(fmt::format(
           "#{} is read while the position of {} is not known{}", number, kAxisLetters[place.axis],
           (uncertain_ >> place.axis & 1) != 0

@@ -12,6 +12,10 @@ namespace {
 
 constexpr double kChordError = 0.005; // mm between an arc and its chords, at most
 constexpr double kWidestChord = std::numbers::pi / 4;
+// G73 goes back by this much after a peck, G83 comes as near to the last one: parameters, and no source says
+// what they are on most machines.
+constexpr double kPeckReturn = 1;
+constexpr double kMostPecks = 10'000;
 
 // Cycles that leave the hole at the feed: G74, G84 tap, G85 and G89 bore.
 bool feedsBack(std::uint32_t tenths) {
@@ -110,11 +114,25 @@ void Machine::tellHole(const Position& hole, std::uint32_t axes, std::size_t dep
     lost_ = lost;
     return;
   }
-  at[depth] = cycleR_;
-  go(MotionKind::Rapid, down, at);
-  at[depth] = cycleDepth_;
-  go(MotionKind::Feed, down, at);
   const Code* const code = cannedCode();
+  const auto to = [&](MotionKind kind, double level) {
+    at[depth] = level;
+    go(kind, down, at);
+  };
+  to(MotionKind::Rapid, cycleR_);
+  const bool breaks = code != nullptr && code->tenths == 730, clears = code != nullptr && code->tenths == 830;
+  const double whole = std::abs(cycleDepth_ - cycleR_), way = cycleDepth_ < cycleR_ ? -1 : 1;
+  if ((breaks || clears) && cyclePeck_ > 0 && whole / cyclePeck_ < kMostPecks) {
+    for (int peck = 1; peck * cyclePeck_ < whole; ++peck) {
+      const double level = snap(cycleR_ + way * peck * cyclePeck_);
+      const double back = snap(cycleR_ + way * std::max(0.0, peck * cyclePeck_ - kPeckReturn));
+      to(MotionKind::Feed, level);
+      if (clears) to(MotionKind::Rapid, cycleR_);
+      to(MotionKind::Rapid, back);
+    }
+  }
+  to(MotionKind::Feed, cycleDepth_);
+  if (cycleDwell_ > 0 && running()) watcher_->dwelled(cycleDwell_);
   go(code != nullptr && feedsBack(code->tenths) ? MotionKind::Feed : MotionKind::Rapid, down, hole);
 }
 

@@ -4,6 +4,7 @@
 #include "support/Printable.h"
 #include "support/Source.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -84,7 +85,16 @@ Trace& Trace::position(const Position& position, std::uint32_t shown) {
 
 void Trace::end() {
   text_ += '\n';
-  if (text_.size() >= kFlushAt) flush();
+  if (text_.size() >= kFlushAt && !held_) flush();
+}
+
+std::size_t Trace::takeTo(std::size_t place, std::size_t begin) {
+  const std::size_t size = text_.size() - begin;
+  if (place < begin) {
+    const auto at = [&](std::size_t offset) { return text_.begin() + static_cast<std::ptrdiff_t>(offset); };
+    std::rotate(at(place), at(begin), text_.end());
+  }
+  return size;
 }
 
 void Trace::flush() {

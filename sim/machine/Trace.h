@@ -39,11 +39,17 @@ public:
   Trace& position(const Position& position, std::uint32_t shown);
   void end();
   void flush();
+  // Lines of a motion that waits for the one after it: the place that they belong to, and the lines from
+  // `begin` on taken there. Gives how long they are. While `hold` nothing is given away.
+  std::size_t place() const { return text_.size(); }
+  std::size_t takeTo(std::size_t place, std::size_t begin);
+  void hold(bool hold) { held_ = hold; }
+  std::uint64_t line() const { return line_; }
 
 private:
   std::function<void(std::string_view)> sink_;
   bool lines_;
-  bool lathe_ = false, diameters_ = false;
+  bool lathe_ = false, diameters_ = false, held_ = false;
   std::uint64_t line_ = 0;
   std::string text_;
 };

@@ -52,7 +52,7 @@ void SimWorld::stopSpindle() {
 // A tool that cuts meets the part on purpose; of the probe it counts where it goes.
 bool SimWorld::isBesideItsPath() {
   if (!options_.part || !world_ || machineNow_ == nullptr || machineNow_->mode(kComp) == 0 ||
-      world_->cuttingTool() != nullptr || world_->isUnknownTool())
+      machineNow_->offsetsPath() || world_->cuttingTool() != nullptr || world_->isUnknownTool())
     return false;
   stop_("the probe moves under cutter compensation (`G41`, `G42`): it goes beside the programmed path, which "
         "Dotek does not follow, so what it meets is not known; write `G40` before it moves");

@@ -93,6 +93,12 @@ SourceRange placeOfLine(const std::string& path, const frontend::nc::Scanner& sc
   return wholeLine(addLine(path, line, scanner.line(), session), line);
 }
 
+void reportLeader(const std::string& path, const frontend::nc::Scanner& scanner, Session& session) {
+  if (scanner.leader().empty()) return;
+  const FileId file = addLine(path, scanner.leader(), scanner.leaderLine(), session);
+  session.diagnostics().report<diag::TextBeforeStart>(wholeLine(file, scanner.leader()));
+}
+
 void reportScanError(const std::string& path, const frontend::nc::Scanner& scanner, const LineChunks& chunks,
                      Session& session) {
   const frontend::nc::ScanError& error = scanner.error();

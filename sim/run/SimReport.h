@@ -11,6 +11,8 @@
 
 namespace dotek::sim {
 
+// What precedes the first `%`, a warning.
+void reportLeader(const std::string& path, const frontend::nc::Scanner& scanner, Session& session);
 void reportScanError(const std::string& path, const frontend::nc::Scanner& scanner, const LineChunks& chunks,
                      Session& session);
 // Nothing where the program came to its end. The scanner is at the block of the end.

@@ -160,7 +160,7 @@ bool VendorRun::begin() {
     return notKnown(
         "its work is stated in millimetres, and Dotek does it under G21 alone: run the program in "
         "millimetres, or the macro's own text (`--programs DIR`)");
-  if (machine_.mode(kComp) != 0 || machine_.mode(kCanned) != 0)
+  if (machine_.mode(kComp) != 0 || machine_.offsetsPath() || machine_.mode(kCanned) != 0)
     return notKnown("what it does under cutter compensation or in a canned cycle is in no source");
   if (machine_.mode(kPlane) != 0) return notKnown("what it does outside of G17 is in no source");
   if (machine_.rotation().on())

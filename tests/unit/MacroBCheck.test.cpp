@@ -78,6 +78,9 @@ TEST_CASE("macrob check: numbers of variables (1.3, 1.11)") {
   CHECK(program("#34=1\n#1=#34") == "E 2:1 variable-out-of-range");
   CHECK(program("#1=#200") == "W 2:4 variable-out-of-range");
   CHECK(program("#1=#150", k31) == "");
+  CHECK(program("#1=#400", k31) == "W 2:4 variable-out-of-range"); // its profile infers the ranges
+  CHECK(program("#1=#60", k31) == "E 2:4 variable-out-of-range");
+  CHECK(program("#1=#400", k6m) == "E 2:4 variable-out-of-range"); // documented
   CHECK(program("#1=#150", k6m) == "E 2:4 variable-out-of-range");
   CHECK(program("X#560", k6m) == "E 2:2 variable-out-of-range");
   CHECK(program("#1=#559", k6m) == "");

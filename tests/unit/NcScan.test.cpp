@@ -115,6 +115,39 @@ TEST_CASE("nc scan: marks") {
   CHECK(one("X1X2Y3").of('X') == 2);
 }
 
+TEST_CASE("nc scan: a program may begin in the line of its mark") {
+  for (const char* text : {"%O100\nX1", "% O100\nX1", "%:100\r\nX1", " %O100(NAME)\nX1"}) {
+    CAPTURE(text);
+    const Read read = scan(text);
+    REQUIRE(read.blocks.size() == 3);
+    CHECK(read.blocks[0].marks == NcWords::ProgramMark);
+    CHECK(read.blocks[0].present == 0);
+    CHECK(read.blocks[0].line == 1);
+    CHECK(read.blocks[1].of('O') == 100);
+    CHECK(read.blocks[1].line == 1);
+    CHECK(read.blocks[2].line == 2);
+  }
+  CHECK(scan("%<PART>\nX1").blocks.size() == 3);
+}
+
+TEST_CASE("nc scan: what precedes the first mark is skipped on request") {
+  const auto first = [](std::string_view text) {
+    LineChunks chunks(text);
+    Scanner scanner(chunks);
+    scanner.skipsLeader();
+    NcWords words;
+    const bool read = scanner.next(words) == Scanner::Result::Block;
+    return fmt::format("{} {} {}:{}", read ? std::to_string(words.line) : "none", words.marks,
+                       scanner.leaderLine(), scanner.leader());
+  };
+  CHECK(first("TAPE OF MAY 5\n\n%\nO1\nX1\n%\n") == "3 2 1:TAPE OF MAY 5");
+  CHECK(first("\r\n PART 7\r\n%\r\nX1") == "3 2 2:PART 7");
+  CHECK(first("%\nX1\n%\n") == "1 2 0:");
+  CHECK(first("X1\nM30\n%\n \n") == "1 0 0:");     // the mark ends the text
+  CHECK(first("O1\nX1\n%\nO2\nX2\n") == "1 4 0:"); // a program begins before it
+  CHECK(first("X1\nM30\n") == "1 0 0:");
+}
+
 TEST_CASE("nc scan: codes that are none keep their place") {
   CHECK(one("G1.23").g[0] == NcWords::kNoCode);
   CHECK(one("G-1").g[0] == NcWords::kNoCode);
