@@ -17,7 +17,7 @@ constexpr double kWidestChord = std::numbers::pi / 4;
 constexpr double kPeckReturn = 1;
 constexpr double kMostPecks = 10'000;
 
-// Cycles that leave the hole at the feed: G74, G84 tap, G85 and G89 bore.
+// Cycles that leave the hole at the feed, up to level R: G74, G84 tap, G85 and G89 bore.
 bool feedsBack(std::uint32_t tenths) {
   return tenths == 740 || tenths == 840 || tenths == 850 || tenths == 890;
 }
@@ -133,7 +133,8 @@ void Machine::tellHole(const Position& hole, std::uint32_t axes, std::size_t dep
   }
   to(MotionKind::Feed, cycleDepth_);
   if (cycleDwell_ > 0 && running()) watcher_->dwelled(cycleDwell_);
-  go(code != nullptr && feedsBack(code->tenths) ? MotionKind::Feed : MotionKind::Rapid, down, hole);
+  if (code != nullptr && feedsBack(code->tenths)) to(MotionKind::Feed, cycleR_); // from there it is rapid
+  if (at[depth] != hole[depth]) go(MotionKind::Rapid, down, hole);
 }
 
 } // namespace dotek::sim

@@ -97,6 +97,10 @@ TEST_CASE("input kind: other controls' languages are none, whatever their file i
       {"O100 SUB\nG0 X1\nO101 IF [#1 GT 0]\nG0 X0\nO101 ENDIF\nO100 ENDSUB\n", "LinuxCNC"},
       {"%WEB,MX,\n(P1=10)\n(IF P1 EQ 0 GOTO N10)\nG1 X P1 F100\nN10 M30\n", "Fagor"},
       {";LAYER_COUNT:3\nM104 S200\nG28 ;home\nG1 X10 Y10 E0.5\nG1 X20 Y10 E1.0\n", "3D printer"},
+      {"G21\nG90\nM82\nG28 X0 Y0\nG92 E0\nG1 F200 E3\nG92 E0\n", "3D printer"},
+      {"M851 Z-1.2\nM500\nM420 S1\n", "3D printer"},
+      {"M92 X80 Y80 Z400 E93\nM205 X8 Y8\nM500\n", "3D printer"},
+      {"G90\nM83\nM584 X0 Y1 Z2 E3\nM350 X16 Y16\nM906 X800 Y800\n", "RepRapFirmware"},
       {"G91 ; relative\nG21 ; mm\nG38.2 X-50 F100 ; probe\nG90\nM30 ; end\n", "LinuxCNC"},
       {"$H\n$X\nG21 G90\nG0 X5\nG1 X10 F100\nM30\n", "Grbl"},
       {"if { move.axes[0].homed }\n  G0 X10\nvar w = 5\nG1 X{var.w} F100\n", "RepRapFirmware"},
@@ -107,6 +111,8 @@ TEST_CASE("input kind: other controls' languages are none, whatever their file i
       const std::string found = kindOf(text, file);
       CHECK_MESSAGE((found.starts_with("none: ") && found.find(name) != std::string::npos), text << found);
     }
+  // Codes of a builder beside those of a control.
+  CHECK(kindOf("O1\nM82\nM84\nM107\nM106\nG0 X10.\nM82\nM84\nM107\nM30\n") == "nc");
   // Comments are no language.
   CHECK(kindOf("G21 ; millimetres\nG90 G54 ; absolute\nG0 X10. ; start\nG1 X20. F100 ; cut\nM30 ; end\n") ==
         "nc");

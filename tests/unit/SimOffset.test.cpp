@@ -214,7 +214,7 @@ TEST_CASE("sim: canned cycles as motion: pecks and dwells") {
   CHECK(run("G83 Z-5. R2. Q3. F100\nG99 X10.") ==
         "r2 f-1 r2 r0 f-4 r2 r-3 f-5 r0 r0 r2 f-1 r2 r0 f-4 r2 r-3 f-5 r2 running");
   CHECK(run("G82 Z-5. R2. P500 F100") == "r2 f-5 d0.5 r0 running");
-  CHECK(run("G89 Z-5. R2. P500 F100") == "r2 f-5 d0.5 f0 running");
+  CHECK(run("G89 Z-5. R2. P500 F100") == "r2 f-5 d0.5 f2 r0 running");
   CHECK(run("G83 Z-5. R2. F100") == "r2 f-5 r0 running"); // in one go
   // Each mode in the plane of its own.
   CHECK(run("G83 Z-5. R2. Q10. F100\nG80\nG73 Z-5. R2. F100") == "r2 f-5 r0 r2 f-5 r0 running");
