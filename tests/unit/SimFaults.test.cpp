@@ -331,6 +331,27 @@ TEST_CASE("faults: the probe under cutter compensation is not where the program 
   CHECK_FALSE(holds(sim("T2 M6\nG41 D5 G1 X10. F500\nG40 X0\n").err, "under cutter compensation"));
 }
 
+TEST_CASE("faults: the probe under cutter compensation meets what lies on its offset path") {
+  Bench bench("dotek-comp-path");
+  // Along the box, whose side is at X0: the ball of 4 passes at X-6 and does not at X-1.5 or X4.
+  const auto sim = [&](const std::string& code, const std::string& radius) {
+    bench.folder.write("m.nc", "O7\nG90 G54 G0 G43 H9 Z50.\nX-1. Y-30.\nG1 Z-5. F500\n" + code +
+                                   " D5 Y-20.\nY60.\nG40 X-30.\nG0 Z50.\nM30\n");
+    return runDotek(splitArguments("sim m.nc --part part.toml --machine machine.toml --tool 9 --at 0,0,50 "
+                                   "--quiet --var 13005=" +
+                                   radius),
+                    bench.folder.path());
+  };
+  const CommandResult beside = sim("G41", "5");
+  CAPTURE(beside.err);
+  CHECK(beside.status == 0);
+  for (const CommandResult& into : {sim("G42", "5"), sim("G41", "0.5"), sim("G41", "-5")}) {
+    CAPTURE(into.err);
+    CHECK(into.status == 1);
+    CHECK_FALSE(holds(into.err, "under cutter compensation"));
+  }
+}
+
 TEST_CASE("faults: a chamfer or a rounding at a corner is not followed, and is no stray comma") {
   Bench bench("dotek-corner");
   for (const char* block : {"G1 X10. F100 ,C2.", "G1 X10. F100 , R.5", "G1 X#1 F100 ,C2."}) {
