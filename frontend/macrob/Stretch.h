@@ -19,9 +19,9 @@ struct TextLine {
 // others like it. Kept are the first and the last kEdge lines of a stretch, and within it the first one with
 // a set of letters, the last one with each letter, those with the least and the largest X, Y and Z, and those
 // with which a feed first goes down along Z, to 0 and below it; beside each of them the code of motion before
-// it, the Z before it and the one of the last rapid move. So modes, positions after it, what is in the way and
-// what is wrong with a block are the same. It is for the caller to know that no jump leads into it
-// and that numbers are coordinates, not distances.
+// it, the Z before it and the one of the last rapid move. So modes, positions after it, what is in the way
+// and what is wrong with a block are the same. It is for the caller to know that no jump leads into it and
+// that numbers are coordinates, not distances.
 class Stretch {
 public:
   static constexpr std::size_t kEdge = 16;
