@@ -116,7 +116,7 @@ std::optional<Layout> sufLayout(const std::string& path, Session& session) {
   const auto id = session.read(path, Encoding::Cp852);
   if (!id) return std::nullopt;
   SourceMap& sources = session.sources();
-  const mikroprog::Program program = mikroprog::parse(*id, sources, session.diagnostics());
+  const mikroprog::Program program = mikroprog::parse(*id, sources, session.diagnostics(), session.limits());
   const std::optional<std::string> text = mikroprog::format(program, sources);
   if (!text) return std::nullopt; // the reader has said why
   const SourceFile& before = sources.file(*id);

@@ -27,6 +27,7 @@
 #include "project/Inputs.h"
 #include "project/Job.h"
 #include "project/PostShape.h"
+#include "project/Programs.h"
 #include "support/Files.h"
 #include "support/WholeName.h"
 #include "support/messages/ComPost.h"
@@ -413,18 +414,35 @@ private:
   // Without --control a program with Y is taken for one of a mill, else for one of the lathe.
   void suf(FileId id) {
     using namespace frontend;
-    const mikroprog::Program& program =
-        sufPrograms_.emplace_back(mikroprog::parse(id, session_.sources(), session_.diagnostics()));
     const std::string named = projects_.settingsOf(id).control;
-    const bool known = session_.data().find("mikroprog", named) != nullptr;
-    const stdlib::MikroprogControl* control = sufControl(
-        known ? named : std::string(mikroprog::profileOf(program).value_or(stdlib::kMikroprogLathe)));
+    const stdlib::MikroprogControl* control =
+        session_.data().find("mikroprog", named) == nullptr ? nullptr : sufControl(named);
+    const mikroprog::Program& program = sufPrograms_.emplace_back(mikroprog::parse(
+        id, session_.sources(), session_.diagnostics(), session_.limits(), keepingOf(id, control)));
+    if (control == nullptr)
+      control = sufControl(std::string(mikroprog::profileOf(program).value_or(stdlib::kMikroprogLathe)));
     if (control != nullptr) sufReadings_.emplace_back(program, *control, session_.sources());
   }
 
+  // `control`: named for the file. These rules look at each move.
+  frontend::mikroprog::Keeping keepingOf(FileId id, const stdlib::MikroprogControl* control) {
+    for (const std::string_view rule : {"suf-zeros", "suf-short-form", "suf-not-joined"})
+      if (lint::isWanted(rule, options_, projects_.configOf(id))) return {};
+    if (control == nullptr) {
+      const auto* lathe = sufControl(stdlib::kMikroprogLathe);
+      const auto* mill = sufControl(stdlib::kMikroprogMill);
+      const bool plain = lathe != nullptr && mill != nullptr &&
+                         frontend::mikroprog::takesPlainMoves(*lathe) &&
+                         frontend::mikroprog::takesPlainMoves(*mill);
+      return {plain ? "XYZ" : "", kSummaryFrom};
+    }
+    return {frontend::mikroprog::takesPlainMoves(*control) ? std::string_view(control->axes) : "",
+            kSummaryFrom};
+  }
+
   // nullptr: there is none, because --data took it away.
-  const stdlib::MikroprogControl* sufControl(const std::string& name) {
-    auto [at, isNew] = sufControls_.try_emplace(name);
+  const stdlib::MikroprogControl* sufControl(std::string_view name) {
+    auto [at, isNew] = sufControls_.try_emplace(std::string(name));
     if (isNew) at->second = stdlib::MikroprogControl::load(session_.data(), name);
     return at->second ? &*at->second : nullptr;
   }
@@ -455,6 +473,7 @@ private:
 
   void select() {
     auto& all = session_.diagnostics().all();
+    repairListings(session_);
     std::erase_if(all, [&](const Diagnostic& d) {
       if (isUsageCode(d.code) || d.code == diag::TooManyFindings::code) return false;
       return projects_.isExcluded(d.range.file) ||

@@ -21,6 +21,13 @@ frontend::macrob::Text textOf(FileId file, Session& session) {
   return listing ? Text::Listing : Text::Program;
 }
 
+void repairListings(Session& session) {
+  for (Diagnostic& one : session.diagnostics().all())
+    if (one.fix && one.code == "table-base-read" && one.range.hasPlace() &&
+        textOf(one.range.file, session) == frontend::macrob::Text::Listing)
+      one.fix->applicability = Fix::Applicability::Safe;
+}
+
 frontend::macrob::Forms formsOf(FileId file, Session& session) {
   const std::string path = session.sources().file(file).name();
   std::error_code error;

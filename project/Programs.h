@@ -13,6 +13,9 @@ namespace dotek::project {
 
 // What --from says of NC files, else the dotek.toml of this one.
 frontend::macrob::Text textOf(FileId file, Session& session);
+// Who names a listing says that its text is not the one that ran: what checks of its programs are certain of
+// is for `lint --fix`, too.
+void repairListings(Session& session);
 
 // What the control takes that the dotek.toml of this file names.
 frontend::macrob::Forms formsOf(FileId file, Session& session);

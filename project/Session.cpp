@@ -143,7 +143,7 @@ const std::string* Session::buffer(const std::string& path) const {
 
 bool Session::holdsPrograms(const std::string& path) const {
   const auto told = kinds_.find(path);
-  return told != kinds_.end() && told->second.kind == InputKind::Nc;
+  return told != kinds_.end() && (told->second.kind == InputKind::Nc || told->second.kind == InputKind::Suf);
 }
 
 std::optional<std::string> Session::bytes(const std::string& path, Diagnostics& diagnostics) {

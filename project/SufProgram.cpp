@@ -43,7 +43,7 @@ std::optional<SufProgram> loadSuf(const std::string& path, const std::string& co
   Diagnostics& diagnostics = session.diagnostics();
   const std::optional<FileId> id = session.read(path, Encoding::Cp852);
   if (!id) return std::nullopt;
-  const mikroprog::Program tree = mikroprog::parse(*id, session.sources(), diagnostics);
+  const mikroprog::Program tree = mikroprog::parse(*id, session.sources(), diagnostics, session.limits());
   if (diagnostics.hasErrors()) return std::nullopt;
   std::string name = control;
   // dotek.toml may name the control of the other programs of the folder.

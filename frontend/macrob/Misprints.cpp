@@ -369,7 +369,8 @@ private:
 
   // `X[#1]/[#2]`: the value of a word is one bracket.
   void wordBrackets(std::size_t i) {
-    if (!isAddress(type(i))) return;
+    // What follows the number of a block is no part of it.
+    if (!isAddress(type(i)) || tokens_[i].text == "N") return;
     std::size_t value = i + 1;
     if (type(value) == Lexer::MINUS || type(value) == Lexer::PLUS) ++value;
     const std::size_t behind = behindOperand(value);

@@ -131,7 +131,7 @@ private:
     std::vector<Diagnostic> found;
     if (text == Text::Listing) {
       const std::set<std::uint32_t>* used = nullptr;
-      found = repairListing(tokens, file_, [&](std::uint32_t n) {
+      found = repairListing(tokens, file_, source_, [&](std::uint32_t n) {
         if (used == nullptr) used = &variablesOf(index);
         return used->contains(n);
       });
@@ -340,10 +340,17 @@ void repairListing(FileId file, std::size_t from, Diagnostics& diagnostics) {
       "star-for-hash",
       "variable-number-form",
       "stray-if",
+      "six-for-letter-g",
+      "hash-lost",
+      "bracket-restored",
+      "small-letter",
   };
   for (std::size_t i = from; i < diagnostics.all().size(); ++i) {
     Diagnostic& one = diagnostics.all()[i];
-    if (one.fix && one.range.file == file &&
+    // `l` and `o` may be digits.
+    const bool digit = one.code == "small-letter" && one.fix &&
+                       one.fix->edits.front().text.find_first_of("LOI") != std::string::npos;
+    if (one.fix && one.range.file == file && !digit &&
         std::find(std::begin(kCertain), std::end(kCertain), one.code) != std::end(kCertain))
       one.fix->applicability = Fix::Applicability::Safe;
   }

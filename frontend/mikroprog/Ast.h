@@ -35,12 +35,18 @@ struct Assignment {
   SourceRange range;
 };
 
+// The first word of an address: what is looked for most.
+struct First {
+  char address = 0;
+  std::uint32_t at = 0; // in the words of the line
+};
+
 struct Line {
   std::optional<std::uint64_t> number;
   SourceRange numberRange;
   std::optional<Assignment> assignment;
   std::vector<Word> words;
-  std::vector<std::size_t> firsts;    // places in `words` of the first word of each address
+  std::vector<First> firsts;          // of each address
   std::uint32_t addresses = 0;        // bits of those that there are; most questions are for others
   std::optional<std::string> comment; // bytes after `;`
   SourceRange commentRange;           // `;` included
@@ -51,12 +57,12 @@ struct Line {
     return std::uint32_t(1) << (address >= 'A' && address <= 'Z' ? address - 'A' : 26);
   }
   const Word* find(char address) const { // the first; nullptr: none
-    return (addresses & bitOf(address)) == 0 ? nullptr : first(address);
+    if ((addresses & bitOf(address)) == 0) return nullptr;
+    for (const First& one : firsts)
+      if (one.address == address) return &words[one.at];
+    return nullptr;
   }
   void add(Word word);
-
-private:
-  const Word* first(char address) const;
 };
 
 struct Program {

@@ -186,8 +186,8 @@ Findings addressesNotTaken(const Reading& reading) {
       return one.function->group == "system" && one.function->addresses.empty();
     });
     std::map<char, Taken> taken; // by address: the same for all words of one
-    for (const std::size_t first : block.line->firsts)
-      taken.emplace(block.line->words[first].address, takenBy(block, block.line->words[first].address));
+    for (const First& first : block.line->firsts)
+      taken.emplace(first.address, takenBy(block, first.address));
     for (const Word& word : block.line->words) {
       if (word.address == 'G' || word.address == 'M') continue;
       const auto& [refuses, takes] = taken.at(word.address);

@@ -1,6 +1,8 @@
 #include "frontend/mikroprog/Parse.h"
 
 #include "support/Decimal.h"
+#include "support/Files.h"
+#include "support/messages/Common.h"
 #include "support/messages/Mikroprog.h"
 
 #include <algorithm>
@@ -205,30 +207,60 @@ std::string place(const SourceMap& sources, SourceRange range) {
 
 } // namespace
 
-const Word* Line::first(char address) const {
-  const auto at = std::find_if(firsts.begin(), firsts.end(),
-                               [&](std::size_t first) { return words[first].address == address; });
-  return at == firsts.end() ? nullptr : &words[*at];
-}
-
 void Line::add(Word word) {
-  if (find(word.address) == nullptr) firsts.push_back(words.size());
+  if (find(word.address) == nullptr)
+    firsts.push_back({word.address, static_cast<std::uint32_t>(words.size())});
   addresses |= bitOf(word.address);
   words.push_back(std::move(word));
 }
 
-Program parse(FileId file, const SourceMap& sources, Diagnostics& diagnostics) {
+namespace {
+
+// Memory of a line with its words, and of what checks make of it.
+constexpr std::uint64_t kOfLine = 600, kOfWord = 150;
+
+std::string_view lineOf(const SourceFile& source, std::uint32_t number) {
+  std::string_view text = source.line(number);
+  while (!text.empty() && (text.back() == ' ' || text.back() == '\t' || text.back() == '\x1a'))
+    text.remove_suffix(1);
+  return text;
+}
+
+// Coordinates are distances from here on, or X is a radius: the place of the tool is a sum, or what X means
+// is asked of each.
+bool changesX(const Line& line) {
+  return std::any_of(line.words.begin(), line.words.end(), [](const Word& word) {
+    return word.address == 'G' && (word.value.number == 91.0 || word.value.number == 24.0);
+  });
+}
+
+} // namespace
+
+Program parse(FileId file, const SourceMap& sources, Diagnostics& diagnostics, const Limits& limits,
+              const Keeping& keeping) {
   const SourceFile& source = sources.file(file);
   Program out;
   out.file = file;
-  out.lines.reserve(source.lineCount());
+  std::vector<std::string_view> texts;
+  texts.reserve(source.lineCount());
+  for (std::uint32_t number = 1; number <= source.lineCount(); ++number)
+    texts.push_back(lineOf(source, number));
+  std::vector<bool> left;
+  if (!keeping.axes.empty() && source.bytes().size() >= keeping.from) left = leftOut(texts, keeping.axes);
+  if (left.empty()) out.lines.reserve(source.lineCount());
+  std::uint64_t kept = kKeptOfText * source.bytes().size();
   Line line;
   for (std::uint32_t number = 1; number <= source.lineCount(); ++number) {
-    std::string_view text = source.line(number);
-    while (!text.empty() && (text.back() == ' ' || text.back() == '\t' || text.back() == '\x1a'))
-      text.remove_suffix(1);
-    if (text.empty()) continue;
+    const std::string_view text = texts[number - 1];
+    if (text.empty() || (!left.empty() && left[number - 1])) continue;
     LineReader(file, source.lineStart(number), text, diagnostics, line).read();
+    kept += kOfLine + kOfWord * line.words.size();
+    if (kept > limits.keptBytes) {
+      diagnostics.report<diag::FileTooLarge>(line.range, source.name(), limits.keptBytes);
+      out.lines.clear();
+      return out;
+    }
+    if (!left.empty() && changesX(line)) left.clear();
     out.lines.push_back(line); // a copy has no more room than it needs
   }
   return out;

@@ -10,13 +10,16 @@
 #pragma once
 
 #include "frontend/mikroprog/Ast.h"
+#include "frontend/mikroprog/PlainMoves.h"
 #include "support/Diagnostics.h"
 #include "support/Limits.h"
 
 namespace dotek::frontend::mikroprog {
 
-// Never fails: problems go to `diagnostics`, at most one a line; its line is `unread`.
-Program parse(FileId file, const SourceMap& sources, Diagnostics& diagnostics);
+// Never fails: problems go to `diagnostics`, at most one a line; its line is `unread`. A program of which
+// more than `kept-bytes` would be kept has no lines.
+Program parse(FileId file, const SourceMap& sources, Diagnostics& diagnostics, const Limits& limits = {},
+              const Keeping& keeping = {});
 
 // `dump --stage tokens`: one token a line: line:column, kind, text.
 std::string dumpTokens(const Program& program, const SourceMap& sources);

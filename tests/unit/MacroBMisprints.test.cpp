@@ -153,6 +153,40 @@ TEST_CASE("macrob: brackets") {
 
 TEST_CASE("macrob: letters and signs that recognition of text mixes up") {
   holds({"G1 X5. IF #9", "E 1:8 stray-if", "stray-if", "G1 X5. F #9"}, kListing);
+  // A G that became 6: after a complete word, or with H.
+  holds({"G00 643 H7", "E 1:5 six-for-letter-g", "six-for-letter-g", "G00 G43 H7"}, kListing);
+  holds({"N10 643 H7 Z5.", "E 1:5 six-for-letter-g", "six-for-letter-g", "N10 G43 H7 Z5."}, kListing);
+  holds({"G0 654 X5.", "E 1:4 six-for-letter-g", "six-for-letter-g", "G0 G54 X5."}, kListing);
+  CHECK(MacroFile("G0 612 X5.\n", kListing).told() != "E 1:4 six-for-letter-g");
+  CHECK(MacroFile("X6 43 H7\n", kListing).told().find("six") == std::string::npos);
+  CHECK(MacroFile("G00 643 H7\n").told().find("six") == std::string::npos);
+  // A `#` before a value that is set.
+  MacroFile hash("#101=4.\nN10 101=5.\n", kListing);
+  CHECK(hash.told() == "E 2:5 hash-lost");
+  CHECK(hash.fixed("hash-lost") == "#101=4.\nN10 #101=5.\n");
+  CHECK(MacroFile("#101=4.\n101=5.\n", kListing).told() == "E 2:1 hash-lost");
+  CHECK(MacroFile("#101=4.\nN10 102=5.\n", kListing).told().find("hash-lost") == std::string::npos);
+  // A bracket, where all readings give one formula.
+  for (const auto& [text, wanted] : std::vector<std::pair<std::string, std::string>>{
+           {"X[[#102-#103]/[#104] F#9", "X[[#102-#103]/[#104]] F#9"},
+           {"X[#1+#2 F100.", "X[#1+#2] F100."},
+           {"X[#1+#2]] F100.", "X[#1+#2] F100."},
+           {"X5. F100.]", "X5. F100."},
+           {"G1 X-[SIN[#2]*2. Y5.", "G1 X-[SIN[#2]*2.] Y5."},
+           {"#1=[#2+#3", "#1=[#2+#3]"}}) {
+    CAPTURE(text);
+    MacroFile one(text + "\n", kListing);
+    CHECK(one.fixed("bracket-restored") == wanted + "\n");
+    CHECK(MacroFile(text + "\n").told().find("bracket-restored") == std::string::npos);
+  }
+  for (const char* text : {"X[[#102-#103]/#104+#117]] F#9", "#114=SQRT[#105*#105]-[#113*#113]]",
+                           "#1=#5*[#2+#3", "X[#3*[2.+#4-#5] F9.", "X[[#1+#2 F9."}) {
+    CAPTURE(text);
+    CHECK(MacroFile(std::string(text) + "\n", kListing).told().find("brackets-do-not-match") !=
+          std::string::npos);
+  }
+  // No bracket around the number of a block.
+  CHECK(MacroFile("#7=1.\nN70 2000+#7\n", kListing).told().find("word-needs-brackets") == std::string::npos);
   // The variable is known.
   MacroFile star("#120=5.\n#1=[*120+#2]\n#1=#2**120\n", kListing);
   CHECK(star.told() == "E 2:5 star-for-hash; E 3:7 star-for-hash");
