@@ -345,7 +345,10 @@ private:
         (datum && !placeDatum(*datum, suf->control, world_->partZero(), machine, diagnostics())) ||
         !world_->prepare(machine) || !world_->startsWithinTravel(machine))
       return outcomeOf(session_, "");
-    return runCode(sim::mikroprog::compile(suf->program, profile, session_.sources()), machine, nullptr, "");
+    const auto others = loadOthers(options_.program, suf->program, suf->control, session_);
+    if (!others) return outcomeOf(session_, "");
+    return runCode(sim::mikroprog::compile(suf->program, profile, session_.sources(), others->byName),
+                   machine, nullptr, "");
   }
 
   // Of an alarm over the tool length while none is in force and the machine's file has a probe; "": not so.

@@ -1,10 +1,13 @@
 #include "driver/SimMikroprog.h"
 
+#include "project/SufProgram.h"
 #include "support/Decimal.h"
+#include "support/Files.h"
 #include "support/messages/Commands.h"
 #include "support/messages/Sim.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <fmt/format.h>
 
 namespace dotek::driver {
@@ -54,6 +57,34 @@ bool placeDatum(const stdlib::Setup::Zero& datum, const stdlib::MikroprogControl
   if (!datum.ofPart && !hasY) zero[1] = 0;
   machine.setZero(0, zero);
   return true;
+}
+
+std::optional<OtherSufs> loadOthers(const std::string& path, const ir::Program& program,
+                                    const stdlib::MikroprogControl& control, project::Session& session) {
+  namespace fs = std::filesystem;
+  OtherSufs out;
+  if (isStream(path)) return out; // has no folder
+  const fs::path folder = fs::path(path).parent_path();
+  const std::string own = fs::path(path).filename().string();
+  std::vector<const ir::Program*> open = {&program};
+  for (std::size_t i = 0; i < open.size(); ++i)
+    for (const std::string& name : sim::mikroprog::programsRunBy(*open[i], control)) {
+      std::error_code error;
+      const fs::path file = folder / name;
+      if (out.byName.contains(name) || name.find_first_of("/\\:") != std::string::npos) continue;
+      if (name == own) {
+        out.byName.emplace(name, &program);
+        continue;
+      }
+      if (!fs::is_regular_file(file, error)) continue;
+      const std::optional<FileId> id = session.read(file.string(), Encoding::Cp852);
+      auto other =
+          id ? project::readSuf(*id, control, session.sources(), session.diagnostics()) : std::nullopt;
+      if (!other) return std::nullopt;
+      open.push_back(&out.programs.emplace_back(std::move(*other)));
+      out.byName.emplace(name, open.back());
+    }
+  return out;
 }
 
 } // namespace dotek::driver

@@ -2,12 +2,14 @@
 #pragma once
 
 #include "project/Options.h"
+#include "project/Session.h"
 #include "sim/mikroprog/Dialect.h"
 #include "stdlib/Setup.h"
 #include "support/Diagnostics.h"
 
 #include <array>
 #include <cstdint>
+#include <deque>
 #include <limits>
 #include <optional>
 #include <string>
@@ -27,5 +29,15 @@ std::optional<stdlib::Setup::Zero> takeDatum(stdlib::Setup& setup);
 bool placeDatum(const stdlib::Setup::Zero& datum, const stdlib::MikroprogControl& control,
                 const std::optional<std::array<double, 3>>& part, sim::Machine& machine,
                 Diagnostics& diagnostics);
+
+// The programs in the folder of `path` that the program runs by G28, and those that they run, by the names of
+// their files; the program itself is among them where one of them runs it. One that is not there is left out.
+// nullopt: one cannot be read, or the control refuses it; reported.
+struct OtherSufs {
+  std::deque<ir::Program> programs; // outlive what is compiled of them
+  sim::mikroprog::OtherPrograms byName;
+};
+std::optional<OtherSufs> loadOthers(const std::string& path, const ir::Program& program,
+                                    const stdlib::MikroprogControl& control, project::Session& session);
 
 } // namespace dotek::driver

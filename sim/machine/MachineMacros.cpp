@@ -82,11 +82,11 @@ void Machine::forgetMotion(std::optional<double> feed) {
 
 bool Machine::motionKnown() {
   return !motionForgotten_ ||
-         inconclusive("which motion is in force after the macro is not known; `G0` or `G1` says it");
+         inconclusive("which motion is in force after the call is not known; `G0` or `G1` says it");
 }
 
 bool Machine::feedKnown() {
-  return !feedForgotten_ || inconclusive("which feed is in force after the macro is not known; `F` says it");
+  return !feedForgotten_ || inconclusive("which feed is in force after the call is not known; `F` says it");
 }
 
 void Machine::remark(std::string_view action, std::string_view text) {

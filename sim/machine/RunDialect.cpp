@@ -12,7 +12,7 @@ bool Run::callPlace(std::uint32_t entry) {
   frame.macro = false;
   if (!machine_.enter(frame)) return false;
   Level level;
-  level.routine = levels_.back().routine;
+  level.routine = &code_.routineOf(entry);
   level.caller = place_;
   levels_.push_back(std::move(level));
   place_ = entry;

@@ -150,6 +150,8 @@ private:
     const std::optional<Position> end = place();
     if (!end) return false;
     const std::uint32_t number = act_.function.number;
+    if (number != 79 && !machine_.knowsFeed())
+      return refuse("which feed is in force after the program that G28 ran is not stated (Q25); write F");
     if (number != 79 && !(machine_.feed() > 0)) return machine_.raise(stdlib::Alarm::NoFeed);
     if (number == 81 || number == 83 || number == 85) return drill(*end, number);
     if (machine_.hasSkipSignal())

@@ -3,7 +3,9 @@
 #include "sim/machine/Compiler.h"
 #include "sim/machine/Trace.h"
 #include "sim/mikroprog/Acts.h"
+#include "sim/mikroprog/Chain.h"
 #include "sim/mikroprog/Dialect.h"
+#include "sim/mikroprog/Functions.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,78 +18,29 @@ namespace dotek::sim::mikroprog {
 
 namespace {
 
-constexpr std::string_view kJumpLetters =
-    "LOH@"; // what jumps, conditions and files take: nothing for the machine
-// Move and decide nothing. What joins blocks changes no end of a move.
-constexpr std::string_view kQuiet[] = {"join-on", "join-off", "set-condition"};
-
-// After the words of the block.
-enum class Flow : std::uint8_t {
-  None,
-  Jump,
-  JumpIf,
-  Call,
-  Return,
-  Position,
-  Value,
-  Text,
-  Stop,
-  StopIf,
-  Wait,
-  Reference,
-  Output,
-};
-
-Flow flowOf(std::string_view function) {
-  static constexpr std::pair<std::string_view, Flow> kFlows[] = {
-      {"jump", Flow::Jump},
-      {"jump-if", Flow::JumpIf},
-      {"call", Flow::Call},
-      {"return", Flow::Return},
-      {"record-position", Flow::Position},
-      {"record-value", Flow::Value},
-      {"write-text", Flow::Text},
-      {"stop", Flow::Stop},
-      {"stop-if", Flow::StopIf},
-      {"wait", Flow::Wait},
-      {"reference", Flow::Reference},
-      {"output-on", Flow::Output},
-      {"output-off", Flow::Output},
-  };
-  for (const auto& [name, flow] : kFlows)
-    if (name == function) return flow;
-  return Flow::None;
-}
-
-// In force for the words of its own block.
-bool isSetting(std::string_view function) {
-  return function == "system-off" || function == "system-stored" || function == "surface-speed";
-}
-// Letters of functions that the machine has no words for.
-std::string_view lettersOf(std::string_view function) {
-  if (function == "surface-speed") return "A";
-  if (function == "wait") return "E";
-  return function.starts_with("output-") ? "Q" : "";
-}
-
-bool isAxis(char letter) {
-  return std::string_view(kAxisLetters).find(letter) != std::string_view::npos;
-}
-
 class BlockCompiler final : public sim::Compiler {
 public:
-  BlockCompiler(const ir::Program& program, const Profile& profile, const SourceMap& sources)
-      : Compiler(profile.machine, sources), profile_(profile), moves_(skipMoves(program, profile.control)) {
-    for (ir::LabelId label = 0; label < program.labels.size(); ++label)
-      numbers_.emplace(program.labels[label].number, label);
-    places_.resize(program.labels.size());
-    for (std::size_t i = 0; i < program.body.size(); ++i) {
-      if (const auto* label = std::get_if<ir::Label>(&program.body[i].node)) places_[label->label] = i;
-      const auto* block = std::get_if<ir::NcBlock>(&program.body[i].node);
-      if (block == nullptr) continue;
-      for (const ir::Word& word : block->words)
-        if (const auto* function = functionOf(word)) used_.insert(function->function);
+  BlockCompiler(const ir::Program& main, const Profile& profile, const SourceMap& sources,
+                const OtherPrograms& others)
+      : Compiler(profile.machine, sources), profile_(profile), main_(main), others_(others) {
+    use(main);
+    for (const auto& [name, program] : others)
+      use(*program);
+    const auto* const state = profile.control.question(kStateOfProgram);
+    if (uses("run-program"))
+      chain_ = std::make_shared<Chain>(profile.control, state != nullptr && state->assumed);
+  }
+
+  void addAll() {
+    begin(main_);
+    add(main_);
+    for (const auto& [name, program] : others_) {
+      if (program == &main_) continue;
+      begin(*program);
+      add(*program);
     }
+    for (const OpenCall& call : openCalls_)
+      join(call);
   }
 
   using Compiler::operator();
@@ -236,12 +189,16 @@ private:
     const auto number = wholeOf(word);
     const stdlib::MikroprogFunction* const function = functionOf(word);
     if (function == nullptr || !function->usable) {
-      refuse(number ? fmt::format("{}{} is not known", word.address, *number)
-                    : fmt::format("a computed {} is not known", word.address));
+      refuse(!number ? fmt::format("a computed {} is not known", word.address)
+             : function == nullptr
+                 ? fmt::format("{}{} is not known", word.address, *number)
+                 : fmt::format("{} ({}) cannot be used: {}", function->code(), function->title,
+                               function->notes.empty() ? "" : function->notes.front()));
       return false;
     }
     const std::string& what = function->function;
-    if (const Flow flow = flowOf(what); flow != Flow::None) {
+    const bool comesBack = what == "end" && program_ != &main_;
+    if (const Flow flow = comesBack ? Flow::End : flowOf(what); flow != Flow::None) {
       plan.flows.emplace_back(flow, function);
       if (says.flow.empty()) says.flow = function->code();
     } else if (isSetting(what)) {
@@ -261,9 +218,8 @@ private:
         const auto* tool = function->find('T');
         plan.stopsFirst = tool == nullptr || !tool->most; // without places there is no turret
       }
-    } else if (plan.main != function &&
-               std::find(std::begin(kQuiet), std::end(kQuiet), what) == std::end(kQuiet)) {
-      refuse(what.empty() ? "a function that is not followed" : what + " is not followed");
+    } else if (plan.main != function && !isQuiet(what)) {
+      refuse(whyNotFollowed(*function));
       return false;
     }
     return true;
@@ -395,8 +351,25 @@ private:
       // H1 is one run or two.
       if (find(block, 'H') != nullptr)
         return refuse("whether H of G26 counts all runs or those after the first (Q8)");
+      if (chain_ != nullptr)
+        run([chain = chain_](Machine&, double*) {
+          chain->call();
+          return true;
+        });
       return go(block, Op::CallPlace);
-    case Flow::Return: emit(Op::LeavePlace, 0, text("M17 without a call")); return;
+    case Flow::Return:
+      if (chain_ != nullptr)
+        run([chain = chain_](Machine&, double*) {
+          chain->comeBack();
+          return true;
+        });
+      emit(Op::LeavePlace, 0, text("M17 without a call"));
+      return;
+    case Flow::Program: return runProgram(block);
+    case Flow::End:
+      run([chain = chain_](Machine& machine, double* cells) { return chain->leave(machine, cells); });
+      emit(Op::LeavePlace, 0, text("the end of a program that nothing runs"));
+      return;
     case Flow::Stop: emit(Op::Pause, 0, text(comment())); return;
     case Flow::StopIf:
       if (const auto condition = conditionOf(function, block))
@@ -415,17 +388,66 @@ private:
     }
   }
 
-  void record(Flow flow, const ir::NcBlock& block) {
+  // nullopt: the block ends the run here.
+  std::optional<std::string> fileOf(const ir::NcBlock& block) {
     const ir::Word* const file = find(block, '@');
     const auto* name = file == nullptr ? nullptr : std::get_if<ir::Constant>(&file->value->node);
-    if (name == nullptr || name->digits.empty()) {
+    if (name == nullptr || name->digits.empty())
       emit(Op::Fault, 0, text("no file"));
-      return;
+    else if (name->digits.find_first_of("/\\:") != std::string::npos)
+      refuse("a file outside the folder of the programs");
+    else
+      return name->digits;
+    return std::nullopt;
+  }
+
+  void record(Flow flow, const ir::NcBlock& block) {
+    const auto name = fileOf(block);
+    if (!name) return;
+    if (flow == Flow::Text) return run(writeText(*name, comment()));
+    emit(Op::Record, flow == Flow::Position ? kNoCell : given(kAccumulator), text(*name));
+  }
+
+  // G28.
+  void runProgram(const ir::NcBlock& block) {
+    const auto name = fileOf(block);
+    if (!name) return;
+    const auto other = others_.find(*name);
+    if (other == others_.end())
+      return refuse(fmt::format("no program `{}` is in the folder of this one", *name));
+    if (other->second == &main_)
+      return refuse(
+          fmt::format("`{}` is the program that runs, and no source says what G28 makes of that", *name));
+    OpenCall call{0, other->second, std::nullopt};
+    if (const ir::Word* const word = find(block, 'L')) {
+      call.number = wholeOf(*word);
+      if (!call.number) return refuse("a program that begins with a block which a parameter names");
     }
-    if (name->digits.find_first_of("/\\:") != std::string::npos)
-      return refuse("a file outside the folder of the programs");
-    if (flow == Flow::Text) return run(writeText(name->digits, comment()));
-    emit(Op::Record, flow == Flow::Position ? kNoCell : given(kAccumulator), text(name->digits));
+    run([chain = chain_](Machine& machine, double* cells) { return chain->enter(machine, cells); });
+    call.instruction = emit(Op::CallPlace);
+    openCalls_.push_back(call);
+  }
+
+  // The call of another program, once all are compiled.
+  struct OpenCall {
+    std::uint32_t instruction = 0;
+    const ir::Program* program = nullptr;
+    std::optional<std::uint32_t> number; // of the block where it begins
+  };
+  void join(const OpenCall& call) {
+    const auto routine = std::find_if(code_.routines.begin(), code_.routines.end(),
+                                      [&](const Routine& one) { return one.program == call.program; });
+    std::optional<std::uint32_t> place = routine->begin;
+    if (call.number) {
+      place.reset();
+      for (const NumberedPlace& one : routine->labels)
+        if (!place && one.number == *call.number) place = one.place;
+    }
+    Instruction& instruction = code_.instructions[call.instruction];
+    if (place)
+      instruction.c = *place;
+    else
+      instruction = {Op::Fault, 0, 0, text(fmt::format("no block N{} in the program", *call.number)), 0};
   }
 
   // The number of O. nullopt: the block ends the run here.
@@ -477,18 +499,41 @@ private:
   // The text beside the block that is compiled: what the operator reads.
   std::string comment() const { return textBeside(*program_, at_); }
 
+  void use(const ir::Program& program) {
+    for (const ir::ProgramStatement& statement : program.body)
+      if (const auto* block = std::get_if<ir::NcBlock>(&statement.node))
+        for (const ir::Word& word : block->words)
+          if (const auto* function = functionOf(word)) used_.insert(function->function);
+  }
+
+  void begin(const ir::Program& program) {
+    moves_ = skipMoves(program, profile_.control);
+    numbers_.clear();
+    for (ir::LabelId label = 0; label < program.labels.size(); ++label)
+      numbers_.emplace(program.labels[label].number, label);
+    places_.assign(program.labels.size(), 0);
+    for (std::size_t i = 0; i < program.body.size(); ++i)
+      if (const auto* label = std::get_if<ir::Label>(&program.body[i].node)) places_[label->label] = i;
+  }
+
   const Profile& profile_;
-  const std::vector<SkipMoveUse> moves_;
+  const ir::Program& main_;
+  const OtherPrograms& others_;
+  std::shared_ptr<Chain> chain_; // nullptr: no program runs another one
+  std::vector<OpenCall> openCalls_;
+  std::set<std::string> used_; // functions of all blocks
+  // Of the program that is compiled.
+  std::vector<SkipMoveUse> moves_;
   std::map<std::uint64_t, ir::LabelId> numbers_; // N to the first block that has it
   std::vector<std::size_t> places_;              // of each label: its statement
-  std::set<std::string> used_;                   // functions of its blocks
 };
 
 } // namespace
 
-Bytecode compile(const ir::Program& program, const Profile& profile, const SourceMap& sources) {
-  BlockCompiler compiler(program, profile, sources);
-  compiler.add(program);
+Bytecode compile(const ir::Program& program, const Profile& profile, const SourceMap& sources,
+                 const OtherPrograms& others) {
+  BlockCompiler compiler(program, profile, sources, others);
+  compiler.addAll();
   return compiler.finish();
 }
 

@@ -224,6 +224,25 @@ std::string textBeside(const ir::Program& program, std::size_t statement) {
   return "";
 }
 
+std::vector<std::string> programsRunBy(const ir::Program& program, const stdlib::MikroprogControl& control) {
+  std::vector<std::string> out;
+  for (const auto& statement : program.body) {
+    const auto* block = std::get_if<ir::NcBlock>(&statement.node);
+    const ir::Word* const file = block == nullptr ? nullptr : find(*block, '@');
+    const auto* name = file == nullptr ? nullptr : std::get_if<ir::Constant>(&file->value->node);
+    if (name == nullptr || std::find(out.begin(), out.end(), name->digits) != out.end()) continue;
+    for (const ir::Word& word : block->words) {
+      const auto number = word.address == 'G' ? wholeOf(word) : std::nullopt;
+      const auto* function = number ? control.find('G', *number) : nullptr;
+      if (function != nullptr && function->function == "run-program") {
+        out.push_back(name->digits);
+        break;
+      }
+    }
+  }
+  return out;
+}
+
 std::vector<std::string> functionsFirst(const ir::Program& program, const stdlib::MikroprogControl& control) {
   std::vector<std::string> out;
   for (const auto& statement : program.body) {

@@ -13,6 +13,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -30,9 +32,15 @@ struct Profile {
   Dialect dialect;
 };
 
-// The program as it runs; program and profile outlive it. Nothing is refused here: what cannot run ends the
-// run where it is reached. X of a lathe becomes a radius.
-Bytecode compile(const ir::Program& program, const Profile& profile, const SourceMap& sources);
+// Programs that G28 may run, by the names of their files.
+using OtherPrograms = std::map<std::string, const ir::Program*, std::less<>>;
+// Names of the files that the program runs, in the order of the text, each once.
+std::vector<std::string> programsRunBy(const ir::Program& program, const stdlib::MikroprogControl& control);
+
+// The program as it runs; program, profile and the others outlive it. Nothing is refused here: what cannot
+// run ends the run where it is reached. X of a lathe becomes a radius.
+Bytecode compile(const ir::Program& program, const Profile& profile, const SourceMap& sources,
+                 const OtherPrograms& others = {});
 
 // P parameters are common variables of the machine, one number higher: #0 is no variable.
 constexpr std::uint32_t variableOf(std::uint32_t parameter) {
