@@ -57,6 +57,7 @@ bool ProgramWriter::code(const ir::Word& word, Parts& parts) {
     state_.motion = info->function;
     return true;
   case Function::ThreadingCycle:
+    state_.motion = info->function; // of the passes that follow
     return no("how the thread runs out of the cycle is a parameter of its control",
               "write its passes as G32");
   case Function::PlaneXY: state_.plane = info->function; return says("G17");
@@ -94,8 +95,7 @@ bool ProgramWriter::code(const ir::Word& word, Parts& parts) {
     return out("its zero is the active system, which the operator sets; here it would be stored shift 3");
   case Function::SetPosition:
     return find('S') != nullptr
-               ? no("the greatest speed is the A of G96 here, and G50 ends a shift",
-                    "leave it out where S counts turns a minute")
+               ? clamp(word, name)
                : no("what it sets lasts here until the reference run", "write the coordinates in one system");
   case Function::Dwell:
   case Function::ReferenceReturn:
@@ -106,6 +106,46 @@ bool ProgramWriter::code(const ir::Word& word, Parts& parts) {
     return no("no function of this control does it that a source describes",
               "write its moves as blocks (`dotek flatten` writes those of a program that runs)");
   }
+}
+
+// G50 S: without G96, and where no S is above it, it changes nothing.
+bool ProgramWriter::clamp(const ir::Word& word, const std::string& name) {
+  const auto most = take('S');
+  if (!most) return false;
+  const auto no = [&](const std::string& why, const std::string& instead) {
+    cannot(word.range,
+           fmt::format("`{}`: the greatest speed is the A of G96 here, and G50 ends a shift; {}", name, why),
+           instead);
+    return false;
+  };
+  for (const char axis : std::string_view("XYZUVW"))
+    if (find(axis) != nullptr) return no("coordinates are set in the same block", "write two blocks");
+  for (const ir::Program& program : file_.programs)
+    for (const ir::ProgramStatement& statement : program.body) {
+      const auto* const block = std::get_if<ir::NcBlock>(&statement.node);
+      if (block == nullptr) continue;
+      const ir::Word* speed = nullptr;
+      bool clamps = false;
+      for (const ir::Word& one : block->words) {
+        if (one.address == 'S') speed = &one;
+        const double* const value = ir::constantValue(one.value);
+        if (one.address != 'G' || value == nullptr) continue;
+        const stdlib::CodeInfo* const code =
+            source_.find('G', static_cast<std::uint32_t>(std::lround(*value * 10)));
+        if (code != nullptr && code->function == Function::SurfaceSpeedOn)
+          return no("this program has constant surface speed",
+                    "write G97 with the speed of each diameter, and leave it out");
+        clamps = clamps || (code != nullptr && code->function == Function::SetPosition);
+      }
+      if (speed == nullptr || clamps) continue;
+      const double* const value = ir::constantValue(speed->value);
+      if (value == nullptr || *value > *most)
+        return no("an S of the program is above it, or computed",
+                  "write the speeds that the spindle may have, and leave it out");
+    }
+  dropped(word.range, fmt::format("`{} S{}`", name, numberText(*most)),
+          "no S of the program is above it, and there is no constant surface speed");
+  return true;
 }
 
 bool ProgramWriter::length(const ir::Word& word, const std::string& name) {

@@ -128,6 +128,11 @@ void ProgramWriter::move(SourceRange range, Parts& parts) {
   }
   if (!state_.motion)
     return cannot(range, "which motion is in force here is not known", "write G0, G1, G2 or G3 in the block");
+  if (state_.motion == Function::ThreadingCycle)
+    return cannot(range,
+                  "it is a pass of the thread cycle that is in force, and how the thread runs out of it is a "
+                  "parameter of its control",
+                  "write its passes as G32");
   parts.moves = true;
   std::array<std::optional<double>, 3> to = state_.at;
   std::string named;

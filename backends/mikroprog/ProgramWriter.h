@@ -65,6 +65,9 @@ private:
   // false: the block is refused.
   bool code(const ir::Word& word, Parts& parts);
 
+  // G50 S. false: refused.
+  bool clamp(const ir::Word& word, const std::string& name);
+
   // G43 H: the correction is in force since M6.
   bool length(const ir::Word& word, const std::string& name);
 

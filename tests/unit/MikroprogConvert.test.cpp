@@ -1,12 +1,8 @@
 // Plain programs for Mikroprog: each word is in the result, in a note or in an error at its place, and a run
 // of the result does what a run of the source does.
-#include "MikroprogHelper.h"
-#include "backends/mikroprog/Programs.h"
-#include "frontend/macrob/Lower.h"
-#include "frontend/macrob/Parse.h"
+#include "MikroprogConversion.h"
 #include "sim/machine/Compile.h"
 #include "sim/machine/Trace.h"
-#include "stdlib/Control.h"
 
 #include <algorithm>
 
@@ -14,60 +10,6 @@ using namespace dotek;
 using namespace dotek::tests;
 
 namespace {
-
-const stdlib::Control& sourceControl(bool lathe) {
-  static const stdlib::DataFiles files;
-  static const auto turning = stdlib::Control::load(files, "fanuc-0i-tf"),
-                    milling = stdlib::Control::load(files, "fanuc-0i-md");
-  return lathe ? *turning : *milling;
-}
-const stdlib::MikroprogControl& targetControl(bool lathe) {
-  static const auto turning = loadMikroprog("mikroprog-s280"), milling = loadMikroprog("mikroprog-mill");
-  return lathe ? turning : milling;
-}
-
-struct Converted {
-  SourceMap sources;
-  Diagnostics diagnostics;
-  std::optional<ir::ProgramFile> programs;
-  std::optional<std::vector<backends::EmittedLine>> lines;
-
-  std::string text() const {
-    std::string out;
-    for (const auto& line : *lines)
-      out += line.text + "\n";
-    return out;
-  }
-  // Lines of the source that the result, or a message, speaks of.
-  bool speaksOf(std::uint32_t line) const {
-    for (const Diagnostic& one : diagnostics.all())
-      if (one.range.hasPlace() && sources.line(one.range) == line) return true;
-    if (!lines) return false;
-    return std::any_of(lines->begin(), lines->end(), [&](const backends::EmittedLine& one) {
-      return std::any_of(one.ranges.begin(), one.ranges.end(),
-                         [&](SourceRange range) { return range.hasPlace() && sources.line(range) == line; });
-    });
-  }
-  std::set<std::uint32_t> errorLines() const {
-    std::set<std::uint32_t> out;
-    for (const Diagnostic& one : diagnostics.all())
-      if (one.severity == Severity::Error && one.range.hasPlace()) out.insert(sources.line(one.range));
-    return out;
-  }
-};
-
-Converted converted(const std::string& text, bool lathe = true) {
-  Converted out;
-  const stdlib::Control& source = sourceControl(lathe);
-  const FileId file = out.sources.add(SourceFile("a.nc", text, Encoding::Cp1250));
-  const auto parsed = frontend::macrob::parse(file, out.sources, Limits(), out.diagnostics);
-  out.programs = frontend::macrob::lower(parsed, source, out.sources, out.diagnostics,
-                                         frontend::macrob::LowerFor::Translation);
-  if (!out.programs || out.programs->programs.empty()) return out;
-  out.lines =
-      backends::mikroprog::emitProgram(*out.programs, {targetControl(lathe), source, "a"}, out.diagnostics);
-  return out;
-}
 
 // Blocks of the result without numbers and comments, the first one (of the beginning) left out.
 std::vector<std::string> blocks(const std::string& body, bool lathe = true) {
@@ -112,6 +54,7 @@ TEST_CASE("mikroprog programs: what means the same is written") {
   CHECK(blocks("T0303\n") == Texts{"M6 T3"});
   CHECK(blocks("G28 U0 W0\n") == Texts{"G98"});
   CHECK(blocks("G54\nG21\n") == Texts{});
+  CHECK(blocks("G50 S2000\nG97 S2000 M3\n") == Texts{"M3 S2000"});
   CHECK(blocks("S500 M3\nG0 X29. Z5.\nG32 Z-20. F1.5\n") == Texts{"M3 S500", "G0 X29 Z5", "G33 Z-20 K1.5"});
   CHECK(blocks("M0(MEASURE)\n") == Texts{"M0"});
   // A feed of a block that moves in rapid, threads or does not move is that of the next move in feed.
@@ -133,7 +76,7 @@ TEST_CASE("mikroprog programs: what means the same is written") {
 
 TEST_CASE("mikroprog programs: each word without a counterpart is refused at its line") {
   for (const char* block : {"G55",
-                            "G50 S2000",
+                            "G50 S2000 X5.",
                             "G96 S150 M3",
                             "G28 U0",
                             "G28 X10. Z10.",
@@ -165,6 +108,8 @@ TEST_CASE("mikroprog programs: each word without a counterpart is refused at its
     CAPTURE(block);
     CHECK(refusedLines(std::string(block) + "\n") == Lines{1});
   }
+  CHECK(refusedLines("G50 S2000\nS2001 M3\n") == Lines{1});
+  CHECK(refusedLines("G50 S2000\nG96 S100 M3\n") == Lines{1, 2});
   CHECK(refusedLines("G0 X20. Z0.\nG3 X20. Z0. K-10. F0.1\n") == Lines{2}); // a full turn
   CHECK(refusedLines("G0 X20. Z0.\nG32 X30. Z-30. F1.5\n") == Lines{2});    // a taper
   CHECK(refusedLines("G0 X20. Z0. T0101\n") == Lines{1});
