@@ -76,6 +76,10 @@ std::optional<std::string> controlIn(const TomlDocument& document, const TomlTab
     name = nearPath((fs::path(folder) / name).lexically_normal());
     // What flagDefaultsOf() names is read before all settings.
     if (session.data().find("controls", name) != nullptr) return name;
+    // A flag names the same file by another path.
+    std::error_code error;
+    for (const stdlib::DataFile* file : session.data().list("controls"))
+      if (stdlib::isDataPath(file->name) && fs::equivalent(file->name, name, error)) return file->name;
     document.fail(value.range(), "no control file `" + name + "`");
     return "";
   }

@@ -3,6 +3,7 @@
 #include "sim/geometry/PartFile.h"
 #include "support/Files.h"
 #include "support/LineMatch.h"
+#include "support/messages/Commands.h"
 #include "support/messages/Fanuc.h"
 #include "support/messages/Verify.h"
 #include "targets/Conversion.h"
@@ -111,6 +112,11 @@ bool loadWorld(const VerifyOptions& options, VerifyPlan& plan, Session& session)
     if (!plan.machine) return false;
   }
   if (!options.part) return true;
+  if (plan.machine && !plan.machine->hasProbe) {
+    session.diagnostics().report<diag::SetupFlag>(
+        {}, "--machine", "it has no [probe], and a probe is what touches a part; docs/part.md has the table");
+    return false;
+  }
   const auto part =
       sim::loadPart(*options.part, session.limits(), session.bounds(sim::folderOf(*options.part)),
                     session.sources(), session.diagnostics());

@@ -51,6 +51,7 @@ struct MachineFile {
   std::array<double, 3> start{}; // where X, Y, Z are before the program, in coordinates of the machine
   MachineLimits limits;
   Probe probe;
+  bool hasProbe = true; // false: no probe move runs, and nothing is touched
   stdlib::Setup setup;
   Devices devices;
 };

@@ -108,7 +108,11 @@ std::optional<MachineFile> readMachine(FileId file, const SourceMap& sources, Di
       document->fail(value.range(), fmt::format("{}{} is beyond the travel, which ends at {}{}", letter,
                                                 fixedText(out.start[axis], 3), letter, fixedText(*end, 3)));
   }
-  const TomlValue probe = root.require("probe", "a table [probe]");
+  // A mill may have none; what pushes a tool setter is a tool or the probe.
+  const TomlValue probe = root.has("tool_setter")
+                              ? root.require("probe", "a table [probe], as there is a [tool_setter]")
+                              : root.value("probe");
+  out.hasProbe = bool(probe);
   if (probe) readProbe(*document, probe.table(), out.probe);
   out.devices = readDevices(*document, root);
   if (const TomlValue setup = root.value("setup")) out.setup = readSetup(*document, setup.table());

@@ -121,6 +121,11 @@ bool SimWorld::loadFiles(const Setup& given) {
     part = loadPart(*options_.part, session_.limits(), session_.bounds(folderOf(*options_.part)),
                     session_.sources(), session_.diagnostics());
   if (!machine_ || (options_.part && !part)) return false;
+  if (!machine_->hasProbe && (options_.part || subject_ == "cycle")) {
+    session_.diagnostics().report<diag::SetupFlag>(
+        {}, "--machine", "it has no [probe], and a probe is what touches a part; docs/part.md has the table");
+    return false;
+  }
   setup_ = machine_->setup;
   // A machine's file serves runs without a part, too.
   if (!part)
@@ -167,7 +172,7 @@ void SimWorld::begin() {
   picture.control = control_;
   if (world_ && !world_->part().isEmpty()) picture.part = world_->part();
   if (world_) picture.probe = world_->probe();
-  picture.probeStated = world_.has_value() && machine_.has_value();
+  picture.probeStated = world_.has_value() && machine_.has_value() && machine_->hasProbe;
   if (machine_) picture.setter = machine_->devices.setter;
   picture.decimals = decimals_;
   recorder_.emplace(
@@ -260,7 +265,7 @@ void SimWorld::attach(Machine& machine) {
       if (!machine.isAtMachineZero() || system == kExtended) return std::nullopt;
       return system;
     };
-  if (world_) machine.setSkipSignal(this);
+  if (world_ && machine_->hasProbe) machine.setSkipSignal(this);
   machine.setWatcher(this);
   begin();
 }

@@ -1,6 +1,7 @@
 // A control that states only what differs, and codes of the probe that the user gives.
 #include "stdlib/ControlFacts.h"
 #include "stdlib/ProbeCodes.h"
+#include "tests/GoldenRunner.h"
 #include "tests/unit/ControlText.h"
 
 #include <algorithm>
@@ -195,4 +196,26 @@ TEST_CASE("codes of the probe: taken before those of the table, refused where th
   addProbeCodes(other, {"M71", ""});
   CHECK(other.find(Function::ProbeOn)->tenths == 710);
   CHECK(other.find('M', before)->function == Function::ProbeOn);
+}
+
+TEST_CASE("a control by its path: a flag and dotek.toml may name one file by different paths") {
+  const DataFolder folder;
+  folder.write("6m.toml", "schema = 1\nextends = \"fanuc-6m\"\n");
+  folder.write("dotek.toml", "schema = 1\ncontrol = \"./6m.toml\"\n");
+  folder.write("a.nc", "O1\nG90 G0 X1.\nM30\n");
+  folder.write("sub/b.nc", "O1\nG90 G0 X1.\nM30\n");
+  const std::string whole = (std::filesystem::path(folder.path()) / "6m.toml").string();
+  const auto clean = [&](std::vector<std::string> arguments, const char* from) {
+    const auto result = tests::runDotek(arguments, std::filesystem::path(folder.path()) / from);
+    CAPTURE(arguments[1]);
+    CHECK_MESSAGE(result.status == 0, result.err);
+  };
+  clean({"sim", "a.nc"}, "");
+  clean({"sim", "a.nc", "--control", "./6m.toml"}, "");
+  clean({"sim", "a.nc", "--control", whole}, "");
+  clean({"lint", "sub/b.nc", "--control", whole}, "");
+  clean({"sim", "b.nc"}, "sub");
+  clean({"sim", "b.nc", "--control", whole}, "sub");
+  clean({"lint", "b.nc", "--control", whole}, "sub");
+  clean({"sim", "b.nc", "--control", "../6m.toml"}, "sub");
 }

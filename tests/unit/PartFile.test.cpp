@@ -328,7 +328,9 @@ TEST_CASE("mesh: what is refused") {
 TEST_CASE("machine file: what is refused, and where") {
   const std::string good = "ball_diameter = 6\nlength = 100\nlength_to = \"tip\"\non = true\n";
   CHECK(machine("[probe]\n" + good) == "");
-  CHECK(machine("").find("`probe` is missing") != std::string::npos);
+  // A mill without a probe; a tool setter is pushed by a tool or the probe.
+  CHECK(machine("[travel]\nx = [-600.0, 0.0]\n") == "");
+  CHECK(machine("[tool_setter]\n").find("`probe` is missing") != std::string::npos);
   CHECK(machine("[probe]\nball_diameter = 6\n").find("`length_to` is missing") != std::string::npos);
   CHECK(machine("[probe]\n" + good + "stem_diameter = 4\n")
             .find("`stem_diameter` and `stem_length` go together") != std::string::npos);
