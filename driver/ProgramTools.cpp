@@ -4,6 +4,8 @@
 #include "frontend/macrob/Outline.h"
 #include "frontend/macrob/Parse.h"
 #include "frontend/macrob/Renumber.h"
+#include "frontend/mikroprog/Parse.h"
+#include "frontend/mikroprog/Renumber.h"
 #include "project/Inputs.h"
 #include "project/Lowering.h"
 #include "project/Programs.h"
@@ -12,6 +14,7 @@
 #include "support/Printable.h"
 #include "support/messages/Commands.h"
 #include "support/messages/Output.h"
+#include "support/messages/Sim.h"
 
 #include <algorithm>
 #include <deque>
@@ -151,6 +154,31 @@ Outcome outline(const OutlineOptions& options) {
   return outcome;
 }
 
+namespace {
+
+bool isSuf(const std::string& path, Session& session) {
+  const Recognition* const found = session.kindOf(path, session.diagnostics(), std::nullopt);
+  return found != nullptr && found->kind == InputKind::Suf;
+}
+
+// A program of Mikroprog. nullopt: reported.
+std::optional<std::string> renumberedSuf(const std::string& path, const RenumberCommandOptions& options,
+                                         Session& session) {
+  namespace mikroprog = frontend::mikroprog;
+  if (options.range) {
+    session.diagnostics().report<diag::OptionOfMacroB>({}, "--range");
+    return std::nullopt;
+  }
+  const std::optional<FileId> id = session.read(path, Encoding::Cp852);
+  if (!id) return std::nullopt;
+  const mikroprog::Program program =
+      mikroprog::parse(*id, session.sources(), session.diagnostics(), session.limits());
+  return mikroprog::renumber(program, {options.start, options.step, options.all}, session.sources(),
+                             session.diagnostics());
+}
+
+} // namespace
+
 Outcome renumber(const RenumberCommandOptions& options) {
   return guarded(options.common, [&](Session& session) {
     std::vector<OutputFile> files;
@@ -160,6 +188,14 @@ Outcome renumber(const RenumberCommandOptions& options) {
     if (hasInputs(options.inputs, "renumber", session))
       for (const std::string& path : options.inputs) {
         if (std::find(names.begin(), names.end(), path) != names.end()) continue;
+        if (isSuf(path, session)) {
+          auto text = renumberedSuf(path, options, session);
+          if (!text) continue;
+          if (*text != session.sources().file(*session.read(path, Encoding::Cp852)).bytes())
+            changed.push_back(path);
+          files.push_back({path, std::move(*text)});
+          continue;
+        }
         std::optional<macrob::File> file = parsed(path, session);
         if (!file) continue;
         macrob::RenumberOptions how{options.start, options.step, options.all, options.range};

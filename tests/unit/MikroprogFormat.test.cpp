@@ -1,10 +1,14 @@
 // The layout of programs of Mikroprog: docs/mikroprog.md, "Layout".
+#include "DataFolder.h"
 #include "frontend/mikroprog/Format.h"
 #include "frontend/mikroprog/Parse.h"
+#include "tests/GoldenRunner.h"
 
 #include <doctest/doctest.h>
 
 using namespace dotek;
+using tests::DataFolder;
+using tests::runDotek;
 namespace mikroprog = frontend::mikroprog;
 
 namespace {
@@ -32,6 +36,27 @@ std::string laid(const std::string& text) {
 }
 
 } // namespace
+
+TEST_CASE("mikroprog: renumber gives new numbers, and each L follows its block") {
+  const DataFolder folder;
+  const auto renumbered = [&](const std::string& text, std::vector<std::string> flags = {}) {
+    folder.write("P.SUF", text);
+    flags.insert(flags.begin(), {"renumber", "P.SUF", "-o", "-"});
+    return runDotek(flags, folder.path());
+  };
+  CHECK(renumbered(";A\nN1 G23 L7 O1\nG0 X1\nN5 P1=2 ;L7\nN7 G28 @B.SUF L7\nN9 M30\n").out ==
+        ";A\nN10 G23 L30 O1\nG0 X1\nN20 P1=2 ;L7\nN30 G28 @B.SUF L7\nN40 M30\n");
+  CHECK(renumbered("N1 G27 L3\nG0 X1\nP1=2\nN3 M30\n", {"--all", "--start", "100", "--step", "5"}).out ==
+        "N100 G27 L115\nN105 G0 X1\nN110 P1=2\nN115 M30\n");
+  for (const char* wrong : {"N1 G27 L8\nN2 M30\n", "N1 G27 L2\nN2 G0 X1\nN2 M30\n", "N1 G27 LP2\nN2 M30\n"}) {
+    CAPTURE(wrong);
+    const auto result = renumbered(wrong);
+    CHECK(result.status == 1);
+    CHECK(result.err.find("[suf-renumber]") != std::string::npos);
+    CHECK(result.err.find("P.SUF:1:8") != std::string::npos);
+  }
+  CHECK(renumbered("N1 M30\n", {"--range", "1:2"}).status != 0);
+}
 
 TEST_CASE("mikroprog layout: one blank between words, numbers without zeros that say nothing") {
   CHECK(laid("N0010  G01X+1.500\tZ-.250  F100.0\n") == "N10 G1 X1.5 Z-0.25 F100\n");
