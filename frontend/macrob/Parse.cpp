@@ -158,6 +158,11 @@ private:
     if (!tokens.empty()) {
       const Misprints misprints = repair(tokens, index, Text::Listing);
       if (!legend && repair(plain, index, Text::Program).found.size() == misprints.found.size()) return;
+      // Who types a program loses a bracket, too.
+      if (!legend && std::all_of(misprints.found.begin(), misprints.found.end(), [](const Diagnostic& one) {
+            return one.code == diag::BracketRestored::code;
+          }))
+        return;
       Block ignored;
       if (parse(tokens, ignored, line.range.end)) return;
     }
