@@ -97,7 +97,8 @@ private:
         session_.read(input, *kind == InputKind::Suf ? Encoding::Cp852 : Encoding::Cp1250);
     if (!id) return;
     if (*kind == InputKind::Suf) {
-      const auto program = frontend::mikroprog::parse(*id, session_.sources(), session_.diagnostics(), session_.limits());
+      const auto program =
+          frontend::mikroprog::parse(*id, session_.sources(), session_.diagnostics(), session_.limits());
       out_ += options_.stage == Stage::Tokens ? frontend::mikroprog::dumpTokens(program, session_.sources())
                                               : frontend::mikroprog::dumpAst(program, session_.sources());
       return;
@@ -198,7 +199,8 @@ private:
     if (found == nullptr || found->kind != InputKind::Suf) return false;
     const std::optional<FileId> id = session_.read(input, Encoding::Cp852);
     if (!id) return true;
-    const auto program = frontend::mikroprog::parse(*id, session_.sources(), session_.diagnostics(), session_.limits());
+    const auto program =
+        frontend::mikroprog::parse(*id, session_.sources(), session_.diagnostics(), session_.limits());
     if (const auto file = frontend::mikroprog::lower(program, session_.sources()))
       out_ += ir::print(*file, &session_.sources());
     return true;

@@ -110,11 +110,10 @@ TEST_CASE("macrob corpus: programs of a 6M from a book, one finding a misprint")
                 merged({zeros({"E 9:2", "E 10:2", "E 14:2", "E 15:2", "E 20:2"}),
                         legends({"4:1", "6:1"}),
                         {"E 16:7 decimal-comma"}}));
-  expectListing(
-      folder / "O110.ocr.nc", control,
-      merged({zeros({"E 10:2", "E 11:2", "E 15:2", "E 16:2", "E 24:2"}),
-              legends({"4:1", "6:1", "7:1"}),
-              {"W 10:4 six-for-letter-g", "W 16:4 word-without-point", "W 18:19 hash-missing"}}));
+  expectListing(folder / "O110.ocr.nc", control,
+                merged({zeros({"E 10:2", "E 11:2", "E 15:2", "E 16:2", "E 24:2"}),
+                        legends({"4:1", "6:1", "7:1"}),
+                        {"W 10:4 six-for-letter-g", "W 16:4 word-without-point", "W 18:19 hash-missing"}}));
 }
 
 TEST_CASE("macrob corpus: programs of a 0i-MD") {
