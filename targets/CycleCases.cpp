@@ -519,6 +519,7 @@ bool CaseRunner::readPosted(Values& values) {
   posted->watching = sim::safeMoves({&program}, *inputs_->sourceControl);
   values.posted = std::move(posted);
   findReads(values);
+  findLeftOver(values);
   return true;
 }
 

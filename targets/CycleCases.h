@@ -110,6 +110,7 @@ private:
   void misplace(Values& values) const;
   sim::Point3 zeroOf(const verify::Case& drawn) const;
   void findReads(Values& values);
+  void findLeftOver(Values& values);
   bool isGiven(std::uint32_t variable) const; // by --var
   void drawVariables(Values& values);
   bool post(Values& values);

@@ -15,7 +15,9 @@ struct CaseRunner::Posted {
   sim::Bytecode code;
   sim::BlockSet watching; // bare skip moves that go to a position
   std::set<std::uint32_t> stores;
-  std::vector<verify::ProgramVariable> reads;      // common variables, before anything writes them
+  std::vector<verify::ProgramVariable> reads; // common variables, before anything writes them
+  std::set<std::uint32_t>
+      leftOver; // common variables that it writes before it reads them: they hold anything before
   bool stopsSpindle = false, stopsCoolant = false; // by codes of its own
 };
 

@@ -120,6 +120,22 @@ void CaseRunner::findReads(Values& values) {
         values.presets[one.number] = *value;
 }
 
+// Of an earlier call, or of another program: what starts a counter has to do it on the other side, too.
+void CaseRunner::findLeftOver(Values& values) {
+  const auto used = [&](const stdlib::MacroSet* set, std::uint32_t number) {
+    return set != nullptr && (verify::usesVariable(*set, number) || verify::needsVariable(*set, number));
+  };
+  const stdlib::MacroSet* const other =
+      session_.macroSet(plan_.targetMacros, inputs_->control ? &*inputs_->control : nullptr);
+  values.posted->leftOver = values.posted->stores;
+  std::erase_if(values.posted->leftOver, [&](std::uint32_t number) {
+    return isGiven(number) || values.presets.contains(number) || used(sourceSet_, number) ||
+           used(other, number) ||
+           std::any_of(values.posted->reads.begin(), values.posted->reads.end(),
+                       [&](const verify::ProgramVariable& one) { return one.number == number; });
+  });
+}
+
 bool CaseRunner::isGiven(std::uint32_t variable) const {
   return std::any_of(variables_.begin(), variables_.end(),
                      [&](const auto& given) { return given.first == variable; });

@@ -199,6 +199,8 @@ verify::Entry CaseRunner::entryOf(const Values& values, bool probeOn) const {
   if (values.posted->stopsSpindle) out.spindle = left ? 2 : 1;
   if (values.posted->stopsCoolant)
     out.coolant = mist ? sim::Machine::Coolant::Mist : sim::Machine::Coolant::Flood;
+  for (const std::uint32_t number : values.posted->leftOver)
+    if (random.chance(0.5)) out.variables.emplace_back(number, static_cast<double>(random.below(8)) + 0.5);
   return out;
 }
 

@@ -310,4 +310,8 @@ std::string whyNotPutBack(const Control& control, const Record& ran, const Recor
   return "";
 }
 
+bool showsAlarm(std::string_view shown, std::string_view text, std::size_t length) {
+  return !shown.empty() && (shown == text || (text.size() > length && text.starts_with(shown)));
+}
+
 } // namespace dotek::verify

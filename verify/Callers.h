@@ -8,10 +8,12 @@
 #include "verify/Record.h"
 #include "verify/Stand.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -32,6 +34,10 @@ struct BrokenCaller {
   char shifts = 0;           // the axis along which a local shift is in force; 0: none
   bool ofToolLength = false; // not demanded by a program that puts a length in force itself
 };
+// `shown` is what a control with messages of so many characters shows of `text`: the whole, or where it is
+// longer its beginning.
+bool showsAlarm(std::string_view shown, std::string_view text, std::size_t length);
+
 // `shiftOfZ`: the program writes an offset along Z by itself, so no shift of Z may be in force either.
 // `starts`: where it has to be called, by axis, where that is fixed.
 std::vector<BrokenCaller> brokenCallers(const stdlib::Control& control, bool shiftOfZ,

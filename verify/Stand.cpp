@@ -10,6 +10,8 @@ namespace dotek::verify {
 
 namespace {
 
+// By which the axes brake after the signal, mm: more than a rounding, less than any path back.
+constexpr double kStopsBeyond = 0.02;
 constexpr double kMacroFeed = 1000; // of protected moves, where a set keeps it in a variable
 constexpr std::uint32_t kFirstSystemVariable = 1000;
 constexpr int kLetterT = 20; // of the words in force: A is the first
@@ -53,6 +55,7 @@ Stand::Stand(const stdlib::Control& control, std::vector<const stdlib::MacroSet*
     : sets_(std::move(sets)), limits_(limits), fresh_(control, dialect) {}
 
 bool Stand::prepare(sim::Machine& machine, const Entry& entry, double ballRadius, double length) const {
+  machine.stopBeyond(kStopsBeyond);
   machine.startSpindle(entry.spindle);
   machine.startCoolant(entry.coolant);
   if (machine.dialect().holdsTool) {

@@ -2,6 +2,7 @@
 
 #include "ir/Fold.h"
 #include "ir/Linear.h"
+#include "ir/Rewrite.h"
 #include "stdlib/RefusedLetters.h"
 #include "stdlib/SearchTravel.h"
 
@@ -182,9 +183,28 @@ ir::ExpressionPtr valueOf(const stdlib::MacroSignature& signature, const stdlib:
       values.place(ir::Coordinate{given->value, *given->frame, nullptr}, argument.axis, argument.frame));
 }
 
+// The value with that of each local in its place which one statement alone sets.
+ir::ExpressionPtr withLocals(const ir::ExpressionPtr& value, const ir::Cycle* cycle) {
+  if (cycle == nullptr) return value;
+  return ir::rewrite(value, [&](const ir::ExpressionPtr& node) {
+    const auto* use = std::get_if<ir::VariableUse>(&node->node);
+    if (use == nullptr || cycle->variable(use->variable).role != ir::Role::Local) return node;
+    ir::ExpressionPtr only;
+    std::size_t times = 0;
+    for (const auto* list : {&cycle->checks, &cycle->body})
+      for (const ir::CycleStatement& one : *list)
+        if (const auto* assign = std::get_if<ir::Assign>(&one.node);
+            assign != nullptr && assign->variable == use->variable) {
+          only = assign->value;
+          ++times;
+        }
+    return times == 1 ? only : node;
+  });
+}
+
 // A field with a minus before it: where its own value is below 0, no control reads the word.
-bool isNeverAbove(const ir::ExpressionPtr& value) {
-  const ir::ExpressionPtr simple = ir::simplify(value);
+bool isNeverAbove(const ir::ExpressionPtr& value, const ir::Cycle* cycle) {
+  const ir::ExpressionPtr simple = ir::simplify(withLocals(value, cycle));
   if (const double* known = ir::constantValue(simple)) return *known <= 0;
   const auto* const unary = std::get_if<ir::Unary>(&simple->node);
   return unary != nullptr && unary->op == ir::UnaryOp::Negate &&
@@ -201,7 +221,7 @@ MacroCall callOf(const stdlib::MacroSignature& signature, const Node& node, cons
       out.endsAtSurface = true;
     ir::ExpressionPtr value = valueOf(signature, argument, node, values);
     out.hasNoWay = out.hasNoWay || (search && value != nullptr && isNoTravel(value));
-    if (argument.positive && value != nullptr && isNeverAbove(value)) out.notAbove = &argument;
+    if (argument.positive && value != nullptr && isNeverAbove(value, values.cycle)) out.notAbove = &argument;
     if (value != nullptr)
       out.arguments.push_back({&argument, std::move(value)});
     else if (argument.required)

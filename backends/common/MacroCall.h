@@ -50,7 +50,8 @@ struct CallValues {
   std::function<ir::ExpressionPtr(ir::Axis axis)> beyond = {};
   // A travel of the source leads to where the surface is expected, as its places do.
   bool travelsToSurface = false;
-  bool setsSystem = true; // the call itself sets the offset of the measurement
+  bool setsSystem = true;           // the call itself sets the offset of the measurement
+  const ir::Cycle* cycle = nullptr; // whose locals the arguments name; nullptr: they are what they are
 };
 
 // How far from the probe the source expects the surface that a call touches along a direction of the plane

@@ -93,6 +93,7 @@ void writeCall(State& state, const MacroCall& call, const ir::Origin& origin) {
 
 CallValues valuesFor(State& state, const ir::Origin& origin) {
   CallValues out;
+  out.cycle = &state.cycle;
   out.place = [&state, &origin](const ir::Coordinate& coordinate, ir::Axis axis, ir::Frame frame) {
     const SourceRange range = origin.range();
     const bool travels = coordinate.system == nullptr && coordinate.frame != frame &&

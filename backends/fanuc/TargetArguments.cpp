@@ -177,8 +177,8 @@ void FanucVerification::callWithNoOffset(const OutputArgument& argument, const T
     const bool moves = std::any_of(record.pieces.begin(), record.pieces.end(), [](const verify::Piece& one) {
       return one.frame.system != 0 && one.frame.toolLength == 0;
     });
-    if (moves || record.ending != verify::Ending::Alarm || record.alarm < kOwnAlarms || record.text.empty() ||
-        !kAlarm.starts_with(record.text))
+    if (moves || record.ending != verify::Ending::Alarm || record.alarm < kOwnAlarms ||
+        !verify::showsAlarm(record.text, kAlarm, control_.alarmLength))
       differs(fmt::format("with {} {}", argument.letter, numberText(value)),
               fmt::format("`{}` has to stop it before it takes the tool's length", kAlarm), record, out);
   }

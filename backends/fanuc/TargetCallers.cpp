@@ -30,11 +30,11 @@ bool FanucVerification::setsSomething(const verify::Record& record, const verify
 }
 
 bool FanucVerification::stopsAtOnce(const verify::Record& record, const verify::Entry& entry,
-                                    std::string_view text) {
+                                    std::string_view text) const {
   if (record.ending != verify::Ending::Alarm || record.alarm < kOwnAlarms || !record.pieces.empty() ||
       setsSomething(record, entry))
     return false;
-  return text.empty() || (!record.text.empty() && text.starts_with(record.text));
+  return text.empty() || verify::showsAlarm(record.text, text, control_.alarmLength);
 }
 
 std::string FanucVerification::didInstead(const verify::Record& record) {

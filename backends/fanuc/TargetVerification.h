@@ -53,7 +53,7 @@ private:
   // ---- callers who break what it demands
   static bool setsSomething(const verify::Record& record, const verify::Entry& entry);
   // An alarm before anything moves or is set; `text`: which one, as far as the control shows it; "": any.
-  static bool stopsAtOnce(const verify::Record& record, const verify::Entry& entry, std::string_view text);
+  bool stopsAtOnce(const verify::Record& record, const verify::Entry& entry, std::string_view text) const;
   static std::string didInstead(const verify::Record& record);
   void differs(const std::string& who, const std::string& wanted, const verify::Record& record,
                TargetRun& out);

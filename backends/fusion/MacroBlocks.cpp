@@ -520,6 +520,7 @@ void MacroBlocks::measure(const ir::Measure& measure, const ir::Origin& origin, 
 
 CallValues MacroBlocks::values(const ir::Origin& origin) {
   CallValues out;
+  out.cycle = &state_.cycle;
   out.place = [this, &origin](const ir::Coordinate& coordinate, ir::Axis axis, ir::Frame frame) {
     return place(coordinate, axis, frame, origin, true);
   };

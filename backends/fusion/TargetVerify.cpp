@@ -314,8 +314,9 @@ private:
       verify::Entry broken = now.entry;
       broken.blocks = caller.blocks;
       const verify::Record record = runCode(made, now, broken);
-      const bool stops = record.ending == verify::Ending::Alarm && caller.alarm.starts_with(record.text) &&
-                         !record.text.empty() && record.measures.size() < *ran.ownOffsets[axis];
+      const bool stops = record.ending == verify::Ending::Alarm &&
+                         verify::showsAlarm(record.text, caller.alarm, control_.alarmLength) &&
+                         record.measures.size() < *ran.ownOffsets[axis];
       if (!stops)
         out.differs(verify::Aspect::Ending, fmt::format("printed {}: `{}` has to stop it before it measures",
                                                         caller.who, caller.alarm));

@@ -226,6 +226,7 @@ void middle(State& state, const std::vector<ir::Axis>& axes, const Feature& feat
     }
   }
   const bool compares = setting && state.options.datum == Datum::SetPosition;
+  if (compares && !onlyDatum(state, system, range)) return;
   if (compares && !relyOn(state, {10, 13, 7}, fmt::format("the middle of a {}", feature.name), range)) return;
   if (compares && !relyOn(state, {12, 23}, "a datum and its record", range)) return;
   if (!relyOn(state, {20, 22}, "a search along one axis", range)) return;

@@ -103,6 +103,7 @@ void setPosition(State& state, ir::Axis axis, double contact, double face, doubl
                  const std::string& system, const ir::Origin& origin) {
   if (!relyOn(state, {12}, "G92 along one axis", origin.range())) return;
   if (axis == ir::Axis::Y && !relyOn(state, {22}, "G92 with Y", origin.range())) return;
+  if (!onlyDatum(state, system, origin.range())) return;
   const std::string code = state.code("set-position");
   state.sheet.add(code + " " + axisWord(state, axis, contact, origin.range()), origin,
                   fmt::format("CONTACT OF {}; S{} NOT WRITTEN", shownPlace(state, axis, nominal), system));
@@ -129,6 +130,13 @@ void askOperator(State& state, ir::Axis axis, double contact, const std::string&
 }
 
 } // namespace
+
+bool onlyDatum(State& state, const std::string& system, SourceRange range) {
+  if (!state.datumSystem) state.datumSystem = system;
+  if (*state.datumSystem == system) return true;
+  state.refuse<diag::DatumOfSeveralSystems>(range, system, *state.datumSystem, state.code("set-position"));
+  return false;
+}
 
 bool guardSystem(State& state, double system, SourceRange range) {
   constexpr double kFirst = 54, kLast = 59;

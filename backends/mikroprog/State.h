@@ -60,6 +60,7 @@ struct State {
   std::optional<double> highest;              // Z that the program goes to, in the coordinates of the source
   double raised = 0;                          // by how much Z counts more after a datum, at most; mm
   std::optional<double> feed;                 // in force in the source, mm/min
+  std::optional<std::string> datumSystem;     // work offset of the source that G92 has set
   bool guarded = false;                       // O7 was asked since the last stop
   std::size_t guards = 0, probeMoves = 0;
   std::set<std::uint32_t> relied;           // questions that the program relies on
@@ -108,6 +109,8 @@ std::string asciiText(State& state, const std::string& text, SourceRange range);
 void guard(State& state, const ir::Origin& origin);
 // false: refused, `system` is none of G54 to G59.
 bool guardSystem(State& state, double system, SourceRange range);
+// Before a datum by G92, which sets the active system whatever the source names; false: refused.
+bool onlyDatum(State& state, const std::string& system, SourceRange range);
 // A move that must meet nothing.
 void protectedMove(State& state, const ir::Move& move, const ir::Origin& origin);
 // A move to where contact is wanted: G31 with L to the tail.

@@ -227,10 +227,30 @@ private:
   bool sets_ = false;   // it sets a position: of a bore, the ball walks to the middle
 };
 
-// What follows a search in feed begins with the path back, at the feed that the program was written with.
-void pathsBack(const verify::Record& ran, const MikroprogFacts& facts, std::vector<verify::Difference>& out) {
+// A search, and a rapid move back to where it began.
+bool backAtOnce(const verify::Piece& search, const verify::Piece& back) {
+  constexpr double kNear = 0.01; // mm
+  return search.kind == sim::PathKind::Measuring && back.kind == sim::PathKind::Rapid &&
+         (back.to - search.from).length() < kNear;
+}
+
+// What follows a search in feed begins with the path back, at the feed that the program was written with. It
+// is a rapid move where the source has one.
+void pathsBack(const verify::Record& source, const verify::Record& ran, const MikroprogFacts& facts,
+               std::vector<verify::Difference>& out) {
+  bool rapid = false;
+  for (std::size_t i = 1; i < source.pieces.size(); ++i)
+    rapid = rapid || backAtOnce(source.pieces[i - 1], source.pieces[i]);
   for (std::size_t i = 1; i < ran.pieces.size(); ++i) {
     const verify::Piece &search = ran.pieces[i - 1], &back = ran.pieces[i];
+    if (!rapid && backAtOnce(search, back)) {
+      out.push_back({Aspect::State,
+                     fmt::format("the path back from the contact at F{} against a rapid move",
+                                 numberText(facts.returnFeed)),
+                     {},
+                     back.range});
+      return;
+    }
     if (search.kind != sim::PathKind::Measuring || back.kind != sim::PathKind::Feed) continue;
     if (back.feed && std::abs(*back.feed - facts.returnFeed) <= kSame) continue;
     out.push_back({Aspect::State,
@@ -297,7 +317,7 @@ std::vector<verify::Difference> compareWithSource(verify::Record source, const v
          mark.kind == Mark::Kind::Datum ? "nothing against a datum" : "nothing against a record",
          {},
          mark.range});
-  pathsBack(ran, facts, meaning.own);
+  pathsBack(source, ran, facts, meaning.own);
   for (verify::Difference& one : frameFaults(source, ran, facts.height))
     meaning.own.push_back(std::move(one));
   std::vector<verify::Difference> out = compare(source, got.record, rules);

@@ -9,9 +9,11 @@
 namespace dotek::lint::rule {
 namespace {
 
-// n of `#n=`; nothing: another block.
+// n of `#n=`, a number of the block before it or none; nothing: another block.
 std::optional<std::uint32_t> storedIn(const ProgBlock& block) {
-  const std::string text = block.text();
+  std::string text = block.text();
+  if (!text.empty() && text.front() == 'N')
+    text.erase(0, std::min(text.find_first_not_of("0123456789 ", 1), text.size()));
   if (text.empty() || text.front() != '#') return std::nullopt;
   std::uint32_t number = 0;
   const auto [end, error] = std::from_chars(text.data() + 1, text.data() + text.size(), number);

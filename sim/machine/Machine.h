@@ -311,6 +311,9 @@ public:
     Pressed, // it began in contact
   };
   Skip lastSkip() const { return lastSkip_; }
+  // A skip move stops so far beyond the contact, mm, as reads of the present position see it until the next
+  // move: axes brake, and #5061 alone holds where the signal came. Moves are not affected.
+  void stopBeyond(double distance) { stopsBeyond_ = distance; }
   // Whether the skip moves to come are meant to meet nothing: a contact ends the program.
   void expectNoContact(bool none) { skipPositions_ = none; }
   // nullopt: no signal was given.
@@ -504,6 +507,8 @@ private:
   double pmcAddress_ = -1;
   Probe probe_ = Probe::NotSwitched;
   Skip lastSkip_ = Skip::None;
+  double stopsBeyond_ = 0;
+  Position beyond_{}; // of the last skip move
   bool skipPositions_ = false;
   bool motionForgotten_ = false, feedForgotten_ = false;
   bool hasUnknown_ = false; // a cell may hold kUnknown

@@ -349,6 +349,11 @@ bool Machine::skipMove(const NcWords& w) {
       work_[i] = snap(skip.from[i] + (end[i] - skip.from[i]) * *share);
   }
   skipped_ = work_; // without a contact the end of the block
+  const double way = std::sqrt((end[0] - skip.from[0]) * (end[0] - skip.from[0]) +
+                               (end[1] - skip.from[1]) * (end[1] - skip.from[1]) +
+                               (end[2] - skip.from[2]) * (end[2] - skip.from[2]));
+  for (std::size_t i = 0; i < kAxes; ++i)
+    beyond_[i] = lastSkip_ == Skip::Touched && way > 0 ? stopsBeyond_ * (end[i] - skip.from[i]) / way : 0;
   skippedTurned_ = rotation_.turnedBack(work_);
   if (rotation_.on()) {
     // The program's next words count from where the machine stopped.

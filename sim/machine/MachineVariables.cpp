@@ -201,7 +201,11 @@ std::optional<double> Machine::readSystem(std::uint32_t number, const Place& pla
   case Kind::BlockEnd:
     if (!position(work_, false)) return std::nullopt;
     return turnedVariable(number, place.axis, work_, rotation_.turnedBack(work_));
-  case Kind::MachinePosition: return position(machinePosition(), true);
+  case Kind::MachinePosition: {
+    std::optional<double> out = position(machinePosition(), true);
+    if (out && work_ == skipped_) out = snap(*out + beyond_[place.axis]);
+    return out;
+  }
   case Kind::Now:
   case Kind::Skip: {
     const bool skip = place.kind == Kind::Skip;
@@ -214,6 +218,7 @@ std::optional<double> Machine::readSystem(std::uint32_t number, const Place& pla
     if (!skip && !position(work_, true)) return std::nullopt;
     std::optional<double> out = skip ? turnedVariable(number, place.axis, skipped_, skippedTurned_)
                                      : turnedVariable(number, place.axis, work_, rotation_.turnedBack(work_));
+    if (out && !skip && work_ == skipped_) out = snap(*out + beyond_[place.axis]);
     if (out && place.axis == 2 && toolLength_ != 0) {
       const std::optional<stdlib::LengthInPositions>& with = control_->withToolLength;
       if (!with) {

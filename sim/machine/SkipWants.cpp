@@ -408,7 +408,8 @@ private:
     }
     return out;
   }
-  // Which way a block moves along the axis: -1, 0, 1; nothing: not known.
+  // Which way a block moves along the axis: -1, 0, 1; nothing: not known. A travel that is a variable alone
+  // counts as above 0: `Z-#2` leads down, as it does with a number in the place of #2.
   std::optional<int> wayOf(std::size_t at, std::size_t axis) const {
     if (!facts_[at]) return std::nullopt;
     const auto& block = std::get<ir::NcBlock>(body_[at].node);
@@ -417,7 +418,9 @@ private:
     if (stated == Mode::Unknown && values.modeMixed) return std::nullopt;
     const Mode mode = stated == Mode::Unknown ? Mode::Absolute : stated;
     const Form way = sum(target(block, axis, values, mode), values.place(axis), -1);
-    if (!way || !way->terms.empty()) return std::nullopt;
+    if (!way) return std::nullopt;
+    if (way->terms.size() == 1 && way->constant == 0) return way->terms.begin()->second > 0 ? 1 : -1;
+    if (!way->terms.empty()) return std::nullopt;
     return way->constant > 0 ? 1 : way->constant < 0 ? -1 : 0;
   }
   bool touchesAgain(std::size_t skip) const {

@@ -77,8 +77,7 @@ bool mayInclude(const std::string& from, const std::string& to) {
   // Rooms of the simulator, lowest first.
   static const std::map<std::string, int> kRoom = {
       {"sim/geometry", 1}, {"sim/machine", 2}, {"sim/mikroprog", 3}, {"sim/cycle", 3},
-      {"sim/picture", 3},  {"sim/device", 3},  {"sim/vendor", 4},
-      {"sim/stock", 4}};
+      {"sim/picture", 3},  {"sim/device", 3},  {"sim/vendor", 4},    {"sim/stock", 4}};
   const auto layer = [](const std::string& unit) {
     if (unit.starts_with("targets/")) return 7;
     if (unit.starts_with("frontend/") || unit.starts_with("backends/") || kRoom.contains(unit)) return 4;

@@ -206,6 +206,26 @@ TEST_CASE("mikroprog: questions that are open are refused with their numbers") {
   CHECK(some.emit(list.cycle).codes().contains("mikroprog-cannot"));
 }
 
+TEST_CASE("mikroprog: a datum of a second work offset would take the place of the first") {
+  const auto cycle = [](double first, double second) {
+    Maker maker;
+    maker.cycle.name = "step";
+    maker.add(ir::Spindle{});
+    maker.add(ir::Coolant{});
+    maker.move(ir::Motion::Protected, ir::Axis::Z, number(-5));
+    maker.surface(ir::Axis::X, number(10), number(first), number(0));
+    maker.surface(ir::Axis::X, number(10), number(second), number(0));
+    return maker.cycle;
+  };
+  MikroprogTarget target;
+  CHECK(target.emit(cycle(54, 54)).lines);
+  const auto refused = target.emit(cycle(54, 55));
+  CHECK_FALSE(refused.lines);
+  CHECK(refused.codes().contains("datum-of-several-systems"));
+  target.options.datum = backends::mikroprog::Datum::Operator;
+  CHECK(target.emit(cycle(54, 55)).lines);
+}
+
 TEST_CASE("mikroprog: spindle and coolant rest before the first probe move, or a warning says so") {
   Maker maker;
   maker.cycle.name = "late";

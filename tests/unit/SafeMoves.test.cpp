@@ -88,6 +88,11 @@ TEST_CASE("safe moves: the first of two touches is none, whatever its IF says") 
   CHECK(safeIn(down + "G91G0Z1.\nG31X-2.F30\nG90\n" + read) == "2"); // another axis
   CHECK(safeIn(down + "G91G0Z1.\nG31Z2.F30\nG90\n" + read) == "2");  // the other way
   CHECK(safeIn(down + "G91G0Z1.\nX5.\nG31Z-2.F30\nG90\n" + read) == "2");
+  // A travel in a variable leads where its sign in the block says.
+  const std::string fast = "IF[#5063GT#9]GOTO9\nG91G1Z1.F1000\nG31Z-2.F50\n#610=#5063\n";
+  CHECK(safeIn("G91G31Z-10.F300\n" + fast) == "");
+  CHECK(safeIn("G91G31Z-#2F300\n" + fast) == "");
+  CHECK(safeIn("G91G31Z#2F300\n" + fast) == "1");
 }
 
 TEST_CASE("asking blocks: as a walk finds that asks each condition again at each jump back") {
