@@ -107,7 +107,11 @@ Format.prototype.getError = function (value) {
 Format.prototype.isSignificant = function (value) {
   return unitsOf(this, numberOf(value, "isSignificant")) !== 0;
 };
+// Posts compare a code with that of a variable that has none yet.
 Format.prototype.areDifferent = function (a, b) {
+  if (a === undefined || b === undefined) {
+    return a !== b;
+  }
   return unitsOf(this, numberOf(a, "areDifferent")) !== unitsOf(this, numberOf(b, "areDifferent"));
 };
 Format.prototype.getMinimumValue = function () {

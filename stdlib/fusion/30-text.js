@@ -253,4 +253,8 @@ StringSubstitution.prototype.substitute = function (text) {
     return table[name] === undefined ? all : String(table[name]);
   });
 };
-give({StringBuffer: StringBuffer, StringSubstitution: StringSubstitution, Template: StringSubstitution});
+function Template(text) {
+  this.text = String(text);
+}
+Template.prototype.substitute = function (table) { return new StringSubstitution(table).substitute(this.text); };
+give({StringBuffer: StringBuffer, StringSubstitution: StringSubstitution, Template: Template});

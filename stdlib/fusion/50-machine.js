@@ -176,7 +176,14 @@ MachineConfiguration.createFromString = function () {
   throw sourceError("MachineConfiguration.createFromString is not carried out");
 };
 
-give({
+// Turns of axes that are at 0 are not unwound; what the engine does to others is not known.
+function unwindABC(abc) {
+  if (!(abc instanceof Vector) || abc.isNonZero()) {
+    throw sourceError("`unwindABC` of Fusion is not carried out by Dotek's kernel where an axis is turned");
+  }
+}
+
+give({unwindABC: unwindABC,
   Axis: Axis, MachineConfiguration: MachineConfiguration,
   createAxis: function (specifiers) { return new Axis(specifiers); },
   createMachineConfiguration: function () { return new MachineConfiguration(); },

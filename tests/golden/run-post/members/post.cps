@@ -13,6 +13,11 @@ function onOpen() {
   writeln("turn " + matrix.getTurnAndTilt(0, 2));
   writeWords("quadrants", getQuadrant(0.1), getQuadrant(2), getQuadrant(4), getQuadrant(-0.1));
   machineConfiguration.setAxisX(createAxis({table:true, axis:[1, 0, 0], range:[0, 400]}));
+  var modal = createModal({}, createFormat({prefix:"M", decimals:0}));
+  writeWords("codes", modal.areDifferent(3, modal.getCurrent()), modal.areDifferent(undefined, undefined));
+  writeln(new Template("DPRNT[${key}*${value}${none}]").substitute({key:"START", value:7}));
+  writeWords("axes", A, B, C, ABC);
+  unwindABC(new Vector(0, 0, 0));
   writeWords("registry", hasRegistryValue("a", "b"), "(" + getEnvironmentVariable("HOME") + ")");
 }
 function onSection() {
