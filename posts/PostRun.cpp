@@ -310,7 +310,14 @@ void PostRunner::report(const PostResult& result) {
   Diagnostic* out = nullptr;
   switch (fault.kind) {
   case PostFault::Kind::Refusal: out = &diagnostics.report<diag::PostRefuses>(where, text); break;
-  case PostFault::Kind::Thrown: out = &diagnostics.report<diag::PostThrew>(where, text); break;
+  case PostFault::Kind::Thrown:
+    if (fault.text == "Error: alloc failed") // the engine's own words
+      out = &diagnostics.report<diag::PostStopped>(
+          where, fmt::format("it needs more than {} MB of memory; `--limit script-memory=MB` gives it more{}",
+                             options_.memory, circumstances(fault)));
+    else
+      out = &diagnostics.report<diag::PostThrew>(where, text);
+    break;
   case PostFault::Kind::Expand: out = &diagnostics.report<diag::PostExpands>(where, text); break;
   case PostFault::Kind::Property: {
     std::vector<std::string> names;

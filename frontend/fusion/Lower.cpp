@@ -71,36 +71,25 @@ void Lowering::rename() {
   }
 }
 
-// A function that is called within the pass in which it is made sees what it would see.
+// Functions that are called within the pass in which they are made see what they would see.
 bool Lowering::staysInPass(const Use& use) const {
   constexpr auto kAtOnce = std::to_array<std::string_view>(
       {"forEach", "map", "filter", "find", "findIndex", "some", "every", "reduce", "reduceRight", "flatMap",
        "findLast", "findLastIndex", "sort", "replace"});
-  const Scope* at = use.scope->function;
-  const Node* const inner = at->node;
-  for (const Node& node : tree_.nodes) {
-    if (!node.is(Kind::Call)) continue;
-    const bool argument = std::find(node.kids.begin() + 1, node.kids.end(), inner) != node.kids.end();
-    const Node* const called = bare(node.kids[0]);
-    if (called == inner) return true; // (function () {..})()
-    if (!argument || !called->is(Kind::Member)) continue;
-    return std::find(kAtOnce.begin(), kAtOnce.end(), called->kids[1]->text) != kAtOnce.end();
-  }
-  return false;
-}
-
-void Lowering::checkClosures() {
-  std::set<const Symbol*> told;
-  for (const Use& use : scopes_.uses) {
-    const Symbol& symbol = *use.symbol;
-    if (!isScope(symbol) || !symbol.scope->inLoop || use.scope->function == symbol.scope->function) continue;
-    if (!told.insert(&symbol).second || staysInPass(use)) continue;
-    refuse(
-        *use.name,
-        fmt::format("a function keeps `{0}`, which each pass of the loop makes anew (make it in a function "
-                    "that takes `{0}` as its argument, or write the loop as `forEach`)",
-                    symbol.name));
-  }
+  const auto calledAtOnce = [&](const Node* inner) {
+    for (const Node& node : tree_.nodes) {
+      if (!node.is(Kind::Call)) continue;
+      const bool argument = std::find(node.kids.begin() + 1, node.kids.end(), inner) != node.kids.end();
+      const Node* const called = bare(node.kids[0]);
+      if (called == inner) return true; // (function () {..})()
+      if (!argument || !called->is(Kind::Member)) continue;
+      return std::find(kAtOnce.begin(), kAtOnce.end(), called->kids[1]->text) != kAtOnce.end();
+    }
+    return false;
+  };
+  for (const Scope* at = use.scope->function; at != use.symbol->scope->function; at = at->parent->function)
+    if (!calledAtOnce(at->node)) return false;
+  return true;
 }
 
 bool Lowering::keyIs(const Node& key, std::string_view name) {
@@ -109,7 +98,16 @@ bool Lowering::keyIs(const Node& key, std::string_view name) {
 
 bool Lowering::changes(const Node& node) const {
   switch (node.kind) {
-  case Kind::Variables: return node.text != "var";
+  case Kind::For:
+  case Kind::ForIn:
+  case Kind::While:
+  case Kind::DoWhile:
+  case Kind::Switch:
+  case Kind::Label:
+  case Kind::Return:
+  case Kind::Break:
+  case Kind::Continue: return !passes_.empty();
+  case Kind::Variables: return node.text != "var" || !passes_.empty();
   case Kind::Declarator: return !node.kids[0]->is(Kind::Name);
   case Kind::Class:
   case Kind::ForOf:
@@ -195,21 +193,36 @@ std::string Lowering::changed(const Node& node) {
   case Kind::Tagged: refuse(node, "a tagged template literal"); return "undefined";
   case Kind::Arrow: return arrow(node);
   case Kind::Function: return function(node);
-  case Kind::For: {
-    if (node.kids[0] == nullptr || !node.kids[0]->is(Kind::Variables)) return parts(node);
-    const std::uint32_t end = node.kids[0]->end;
-    return slice(node.begin, node.kids[0]->begin) + variables(*node.kids[0], true) +
-           parts(node, end, node.end);
+  case Kind::For:
+  case Kind::ForIn:
+  case Kind::ForOf:
+  case Kind::While:
+  case Kind::DoWhile: return loop(node);
+  case Kind::Switch: {
+    frames_.push_back({Frame::Kind::Switch, std::move(labels_)});
+    labels_.clear();
+    std::string out = parts(node);
+    frames_.pop_back();
+    return out;
   }
-  case Kind::ForIn: {
-    const Node& first = *node.kids[0];
-    if (first.is(Kind::ArrayPattern) || first.is(Kind::ObjectPattern) ||
-        (first.is(Kind::Variables) && !first.kids[0]->kids[0]->is(Kind::Name)))
-      refuse(first, "a pattern in the head of `for (.. in ..)`");
-    const std::string head = first.is(Kind::Variables) ? "var " + of(first.kids[0]->kids[0]) : of(&first);
-    return slice(node.begin, first.begin) + head + parts(node, first.end, node.end);
+  case Kind::Label: {
+    labels_.push_back(node.kids[0]->text);
+    const Kind kind = node.kids[1]->kind;
+    const bool taken = kind == Kind::For || kind == Kind::ForIn || kind == Kind::ForOf ||
+                       kind == Kind::While || kind == Kind::DoWhile || kind == Kind::Switch ||
+                       kind == Kind::Label;
+    if (!taken) {
+      frames_.push_back({Frame::Kind::Block, std::move(labels_)});
+      labels_.clear();
+    }
+    std::string out = parts(node);
+    if (!taken) frames_.pop_back();
+    labels_.clear();
+    return out;
   }
-  case Kind::ForOf: return forOf(node);
+  case Kind::Return:
+  case Kind::Break:
+  case Kind::Continue: return leave(node);
   case Kind::Array: return array(node);
   case Kind::Object: return object(node);
   case Kind::Property:
@@ -246,7 +259,7 @@ std::string Lowering::changed(const Node& node) {
 
 Lowered Lowering::run() {
   rename();
-  checkClosures();
+  findPasses();
   bool any = false;
   for (const Node* node : tree_.body)
     any = mark(node) || any;

@@ -67,6 +67,7 @@ std::string Lowering::declarator(const Node& node, bool fresh) {
 }
 
 std::string Lowering::variables(const Node& node, bool inHead) {
+  if (node.text == "var" && passAround() != nullptr) return assignments(node);
   const Scope* scope = nullptr;
   if (const Node* const first = node.kids.front()->kids[0]; first->is(Kind::Name))
     if (const Symbol* symbol = scopes_.symbolOf(first)) scope = symbol->scope;
@@ -76,6 +77,33 @@ std::string Lowering::variables(const Node& node, bool inHead) {
   for (const Node* one : node.kids) {
     out += slice(from, one->begin) + declarator(*one, fresh);
     from = one->end;
+  }
+  return out + slice(from, node.end);
+}
+
+// `var` in a pass that is a call: the variables are those of the function around it.
+std::string Lowering::assignments(const Node& node) {
+  std::string out;
+  std::uint32_t from = node.begin + 3;
+  for (const Node* one : node.kids) {
+    const Node& target = *one->kids[0];
+    hoistAll(target);
+    out += slice(from, one->begin);
+    from = one->end;
+    if (one->kids[1] == nullptr) {
+      out += "void 0";
+    } else if (target.is(Kind::Name)) {
+      out += declarator(*one, false);
+    } else {
+      const std::string name = temporary();
+      std::vector<std::string> bound;
+      out += name + " = " +
+             (target.is(Kind::ArrayPattern) ? "dotekEs6.list(" + of(one->kids[1]) + ")" : of(one->kids[1]));
+      bind(target, name, bound);
+      for (const std::string& each : bound)
+        out += ", " + each;
+      out = filled(out, node.begin, one->end);
+    }
   }
   return out + slice(from, node.end);
 }
@@ -116,6 +144,7 @@ std::string Lowering::parameterNames(const Node& parameters, std::string& prolog
 
 std::string Lowering::functionRest(const Node& parameters, const Node& body, const std::string& more) {
   temporaries_.emplace_back();
+  frames_.push_back({Frame::Kind::Function});
   std::string prologue;
   const std::string names = parameterNames(parameters, prologue);
   std::string text = body.is(Kind::Block) ? parts(body, body.begin + 1, body.end) : of(&body);
@@ -123,6 +152,7 @@ std::string Lowering::functionRest(const Node& parameters, const Node& body, con
   for (const std::string& name : temporaries_.back())
     prologue = " var " + name + ";" + prologue;
   temporaries_.pop_back();
+  frames_.pop_back();
   const std::string gap = filled(prologue, parameters.begin, body.begin);
   std::string lacking = gap.substr(prologue.size());
   if (!body.is(Kind::Block)) return "(" + names + ") {" + prologue + lacking + " return " + text + "; }";
@@ -142,31 +172,6 @@ std::string Lowering::arrow(const Node& node) {
     refuse(node, "`arguments` within an arrow function");
   const std::string text = "(function " + functionRest(*node.kids[0], *node.kids[1], "") + ")";
   return bound ? text + ".bind(this)" : text;
-}
-
-std::string Lowering::forOf(const Node& node) {
-  const Node& first = *node.kids[0];
-  const Node& body = *node.kids[2];
-  const std::string list = ownName();
-  const std::string index = ownName();
-  const bool declares = first.is(Kind::Variables);
-  const Node& target = declares ? *first.kids[0]->kids[0] : first;
-  const std::string value = list + "[" + index + "]";
-  std::vector<std::string> bound;
-  std::string head;
-  if (target.is(Kind::ArrayPattern) || target.is(Kind::ObjectPattern)) {
-    const std::string one = declares ? ownName() : temporary();
-    bound.push_back(one + " = " + value);
-    bind(target, one, bound);
-  } else {
-    bound.push_back(of(&target) + " = " + value);
-  }
-  for (const std::string& one : bound)
-    head += (head.empty() ? (declares ? "var " : "") : ", ") + one;
-  std::string out = fmt::format("for (var {0} = dotekEs6.list({1}), {2} = 0; {2} < {0}.length; ++{2}) {{",
-                                list, of(node.kids[1]), index);
-  out += lines(node.begin, node.kids[1]->begin) + head + ";" + lines(node.kids[1]->end, body.begin);
-  return out + (body.is(Kind::Block) ? parts(body, body.begin + 1, body.end) : " " + of(&body) + " }");
 }
 
 std::string Lowering::classText(const Node& node) {

@@ -201,13 +201,25 @@ std::string Lowering::chain(const Node& node) {
   if (lowest == nullptr) return parts(node);
   const Node& object = *lowest->kids[0];
   const bool method = lowest->is(Kind::Call) && !object.is(Kind::Name);
-  if (method && ((!object.is(Kind::Member) && !object.is(Kind::Index)) || object.flag || hasSpread(*lowest) ||
-                 object.kids[0]->is(Kind::Super))) {
+  const auto leaves = [](const Node* at) { // `?.` below may leave the chain
+    for (; at->is(Kind::Member) || at->is(Kind::Index) || at->is(Kind::Call); at = at->kids[0])
+      if (at->flag) return true;
+    return false;
+  };
+  if (method && ((!object.is(Kind::Member) && !object.is(Kind::Index)) || hasSpread(*lowest) ||
+                 object.kids[0]->is(Kind::Super) || leaves(object.kids[0]))) {
     refuse(node, "`?.` before these brackets");
     return "undefined";
   }
   const std::string name = temporary();
   const std::string self = method ? temporary() : "";
+  const auto found = [&] { // the method, and what it belongs to
+    std::string tail = parts(object, object.kids[0]->end, object.end);
+    const std::string of = this->of(object.kids[0]);
+    if (!object.flag) return fmt::format("({} = {}){}", self, of, tail);
+    tail.erase(tail.find("?."), object.is(Kind::Member) ? 1 : 2);
+    return fmt::format("(({0} = {1}) === null || {0} === undefined ? undefined : {0}{2})", self, of, tail);
+  };
   std::string rest;
   for (const Node* at = &node;; at = at->kids[0]) {
     const std::uint32_t from = at->kids[0]->end;
@@ -221,10 +233,7 @@ std::string Lowering::chain(const Node& node) {
     if (at == lowest) break;
   }
   return fmt::format("(({0} = {1}) === null || {0} === undefined ? undefined : {0}{2})", name,
-                     method ? fmt::format("({} = {}){}", self, of(object.kids[0]),
-                                          parts(object, object.kids[0]->end, object.end))
-                            : of(&object),
-                     rest);
+                     method ? found() : of(&object), rest);
 }
 
 std::string Lowering::binary(const Node& node) {

@@ -20,8 +20,11 @@ private:
   static bool keyIs(const Node& key, std::string_view name);
   bool changes(const Node& node) const;
   void rename();
-  void checkClosures();
+  void findPasses();
   bool staysInPass(const Use& use) const;
+  static const Node* bodyOf(const Node& loop);
+  const Node* loopOf(const Symbol& symbol) const;
+  std::string noCall(const Node& loop, const Use& use) const;
 
   // Text
   std::string of(const Node* node);
@@ -39,12 +42,22 @@ private:
   std::string changed(const Node& node);
   std::string variables(const Node& node, bool inHead);
   std::string declarator(const Node& node, bool fresh);
+  std::string assignments(const Node& node);
   std::string templateText(const Node& node);
   std::string arrow(const Node& node);
   std::string function(const Node& node, const std::string& prologue = "");
   std::string functionRest(const Node& parameters, const Node& body, const std::string& prologue);
   std::string parameterNames(const Node& parameters, std::string& prologue);
+  std::string loop(const Node& node);
+  std::string forLoop(const Node& node);
+  std::string forIn(const Node& node);
   std::string forOf(const Node& node);
+  std::string pass(const Node& body, const std::string& parameters, const std::string& given,
+                   const std::string& first, const std::string& last);
+  std::string leave(const Node& node); // return, break, continue
+  std::string jump(const std::string& word, std::string_view label);
+  void hoist(const std::string& name);
+  void hoistAll(const Node& target);
   std::string array(const Node& node);
   std::string object(const Node& node);
   std::string objectPart(const Node& node);
@@ -59,6 +72,22 @@ private:
   void bind(const Node& pattern, const std::string& from, std::vector<std::string>& out);
   void bindOne(const Node& target, const std::string& value, std::vector<std::string>& out);
 
+  // What surrounds a statement that is being written.
+  struct Frame {
+    enum class Kind : std::uint8_t {
+      Function,
+      Loop,
+      Switch,
+      Block,
+      Pass
+    }; // Pass: the call of a pass of the loop
+    Kind kind = Kind::Function;
+    std::vector<std::string_view> labels = {}; // of a Loop, or of another statement that has some
+    bool leaves = false, returns = false;      // of a Pass: what its result may say
+    std::set<std::pair<std::string, std::string>> jumps = {};
+  };
+  Frame* passAround(); // nullptr: a statement of the function itself
+
   const Tree& tree_;
   const Scopes& scopes_;
   Lowered out_;
@@ -67,6 +96,10 @@ private:
   std::set<std::string, std::less<>> names_;                 // all of the script
   std::vector<std::vector<std::string>> temporaries_ = {{}}; // of each function that is being written
   std::vector<std::string> supers_;
+  std::set<const Node*> passes_; // loops whose passes are calls
+  std::unordered_map<const Symbol*, std::string> inPass_;
+  std::vector<Frame> frames_;
+  std::vector<std::string_view> labels_; // of the statement that follows
   int count_ = 0;
 };
 

@@ -116,22 +116,26 @@ Node* Parser::assignment(bool in) {
 
 bool Parser::arrowBegins() const {
   if (here().type == TokenType::Name && isSign("=>", 1)) return true;
-  if (isWord("async") && (isWord("function", 1) || isSign("=>", 2))) return true;
+  if (isWord("async") && (isWord("function", 1) || isSign("=>", 2) || arrows_.contains(at_ + 1))) return true;
   if (!isSign("(")) return false;
-  int open = 0;
-  for (std::size_t ahead = 0; ahead < tokens_.size() - at_; ++ahead) {
-    const Token& token = here(ahead);
-    if (token.type == TokenType::End) return false;
-    if (token.type != TokenType::Sign) continue;
-    const View sign = textOf(token);
-    open += sign == "(" || sign == "[" || sign == "{"   ? 1
-            : sign == ")" || sign == "]" || sign == "}" ? -1
-                                                        : 0;
-    // Parameters are short; a bracket of a whole statement is none.
-    if (open > 0 && sign == ";") return false;
-    if (open == 0) return isSign("=>", ahead + 1);
+  return arrows_.contains(at_);
+}
+
+// Round brackets before `=>`.
+void Parser::findArrows() {
+  std::vector<std::size_t> open;
+  for (std::size_t i = 0; i < tokens_.size(); ++i) {
+    if (tokens_[i].type != TokenType::Sign) continue;
+    const View sign = textOf(tokens_[i]);
+    if (sign == "(" || sign == "[" || sign == "{") {
+      open.push_back(i);
+    } else if ((sign == ")" || sign == "]" || sign == "}") && !open.empty()) {
+      if (sign == ")" && i + 1 < tokens_.size() && tokens_[i + 1].type == TokenType::Sign &&
+          textOf(tokens_[i + 1]) == "=>")
+        arrows_.insert(open.back());
+      open.pop_back();
+    }
   }
-  return false;
 }
 
 Node* Parser::arrow() {

@@ -5,12 +5,13 @@
 
 #include <algorithm>
 #include <initializer_list>
+#include <unordered_set>
 
 namespace dotek::frontend::fusion {
 
 class Parser {
 public:
-  explicit Parser(Tree& tree) : tree_(tree), tokens_(tree.tokens.tokens) {}
+  explicit Parser(Tree& tree) : tree_(tree), tokens_(tree.tokens.tokens) { findArrows(); }
   void script();
 
 private:
@@ -84,6 +85,7 @@ private:
   Node* templateNode();
   Node* arrow();
   bool arrowBegins() const;
+  void findArrows();
   Node* binding(); // a name or a pattern
   Node* parameter();
   void toPattern(Node* node);
@@ -92,6 +94,7 @@ private:
   Tree& tree_;
   const std::vector<Token>& tokens_;
   std::size_t at_ = 0;
+  std::unordered_set<std::size_t> arrows_; // round brackets of parameters of an arrow function
   int depth_ = 0;
 };
 

@@ -79,9 +79,9 @@ void check(const Project& project, Report& report) {
     const auto nameOf = [](const fusion::Node& node) {
       return node.is(fusion::Kind::Name) ? node.text : textLiteral(&node);
     };
-    Diagnostic& found = report.at(post.tree.range(*plain.front()),
-                                  "the post declares no property `{}`: what is read is undefined",
-                                  nameOf(*plain.front()));
+    Diagnostic& found =
+        report.at(post.tree.range(*plain.front()),
+                  "the post declares no property `{}`: what is read is undefined", nameOf(*plain.front()));
     for (std::size_t i = 1; i < plain.size(); ++i)
       found.note(post.tree.range(*plain[i]), fmt::format("nor `{}`", nameOf(*plain[i])));
   });

@@ -77,7 +77,7 @@ function write(text, whole) {
   var places = state.job.map ? placesOfStack(new Error("").stack) : undefined;
   var to = state.redirected[state.redirected.length - 1];
   if (to !== undefined) {
-    to.text += piece;
+    to.text.push(piece);
   } else {
     state.text.push(piece);
   }
@@ -99,7 +99,8 @@ function bufferText() {
   if (state.job.map && last.line !== "") {
     remember(last.line, last.last);
   }
-  return last.text;
+  last.text = [last.text.join("")];
+  return last.text[0];
 }
 
 // Words of arrays and of `arguments` too; what is empty is left out.
@@ -154,7 +155,7 @@ function warning(text) {
 }
 
 function redirectTo(name) {
-  state.redirected.push({name: name, text: "", line: ""});
+  state.redirected.push({name: name, text: [], line: ""});
 }
 function closeRedirection() {
   var last = state.redirected.pop();
@@ -162,7 +163,7 @@ function closeRedirection() {
     throw sourceError("closeRedirection: nothing is redirected");
   }
   if (last.name !== undefined) {
-    state.files[last.name] = (state.files[last.name] || "") + last.text;
+    state.files[last.name] = (state.files[last.name] || "") + last.text.join("");
   }
 }
 
@@ -208,7 +209,8 @@ give({
     var last = state.redirected[state.redirected.length - 1];
     var text = bufferText();
     if (last !== undefined && clear !== false) {
-      last.text = last.line = "";
+      last.text = [];
+      last.line = "";
     }
     return text;
   },
@@ -216,7 +218,8 @@ give({
     var last = state.redirected[state.redirected.length - 1];
     var text = bufferText();
     if (last !== undefined && clear) {
-      last.text = last.line = "";
+      last.text = [];
+      last.line = "";
     }
     return text;
   },

@@ -16,7 +16,11 @@ var dotekEs6 = (function () {
       return of.dotekList();
     }
     if (typeof of.length === "number") {
-      return Array.prototype.slice.call(of);
+      var out = []; // without holes
+      for (var i = 0; i < of.length; ++i) {
+        out.push(of[i]);
+      }
+      return out;
     }
     throw new TypeError("a value without elements is read as a list");
   }
@@ -232,8 +236,26 @@ var dotekEs6 = (function () {
   add(String.prototype, "trimStart", function () { return this.replace(/^\s+/, ""); });
   add(String.prototype, "trimEnd", function () { return this.replace(/\s+$/, ""); });
   add(String.prototype, "replaceAll", function (from, to) {
-    return from instanceof RegExp ? this.replace(from, to) : this.split(from).join(to);
+    var escaped = String(from).replace(/[.*+?^${}()|[\]\\]/g, "\\$&");
+    return this.replace(from instanceof RegExp ? from : new RegExp(escaped, "g"), to);
   });
+  add(String.prototype, "matchAll", function (by) {
+    var out = [];
+    var of = new RegExp(by.source, (by.ignoreCase ? "i" : "") + (by.multiline ? "m" : "") + "g");
+    for (var found; (found = of.exec(this)) !== null;) {
+      out.push(found);
+      if (found[0] === "") {
+        ++of.lastIndex;
+      }
+    }
+    return out;
+  });
+  function place(list, i) { return i < 0 ? list.length + Math.ceil(i) : Math.floor(i || 0); }
+  add(String.prototype, "at", function (i) { var at = place(this, i); return at in Object(this) ? this.charAt(at) : undefined; });
+  add(Array.prototype, "at", function (i) { return this[place(this, i)]; });
+  add(Array.prototype, "keys", function () { return list(this).map(function (one, i) { return i; }); });
+  add(Array.prototype, "values", function () { return list(this).slice(); });
+  add(Array.prototype, "entries", function () { return list(this).map(function (one, i) { return [i, one]; }); });
   add(Math, "sign", function (x) { return x > 0 ? 1 : x < 0 ? -1 : Number(x); });
   add(Math, "trunc", function (x) { return x < 0 ? Math.ceil(x) : Math.floor(x); });
   add(Math, "hypot", function () {
@@ -245,7 +267,11 @@ var dotekEs6 = (function () {
   });
   add(Math, "log10", function (x) { return Math.log(x) / Math.LN10; });
   add(Math, "log2", function (x) { return Math.log(x) / Math.LN2; });
-  add(Math, "cbrt", function (x) { return x < 0 ? -Math.pow(-x, 1 / 3) : Math.pow(x, 1 / 3); });
+  Math.cbrt = function (x) { // the engine's own misses whole results
+    var root = x < 0 ? -Math.pow(-x, 1 / 3) : Math.pow(x, 1 / 3);
+    var whole = Math.round(root);
+    return whole * whole * whole === x ? whole : root;
+  };
   add(Number, "isFinite", function (x) { return typeof x === "number" && isFinite(x); });
   add(Number, "isNaN", function (x) { return x !== x; });
   add(Number, "isInteger", function (x) { return typeof x === "number" && isFinite(x) && Math.floor(x) === x; });

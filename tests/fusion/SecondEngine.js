@@ -154,7 +154,7 @@ function engine(world, section, tool, refuse) {
       "hasGlobalParameter", "isInteractionAllowed", "isPolarModeActive", "isWorkpieceDefined", "isSpeedFeedSynchronizationActive"),
     ...all(() => "", "getOutputPath", "getProgramName", "getProduct", "getHeaderVersion", "getSimulationStreamPath", "getCoolantName",
       "getMaterialName", "getCommandStringId", "loadText", "getIntermediatePath", "getPlatform", "getConfigurationFolder", "findFile"),
-    ...all(() => 0, "getCurrentSectionId", "getCyclePointId", "getCompensationOffset", "getPolarMode", "getFeedrate", "getCircularPlane"),
+    ...all(() => 0, "getCurrentSectionId", "getCyclePointId", "getCompensationOffset", "getRadiusCompensation", "getPolarMode", "getFeedrate", "getCircularPlane"),
     ...all(() => 1, "getNumberOfSections", "getNumberOfCyclePoints", "getNumberOfRecords"), getSection: () => world.currentSection,
     getToolTable: () => ({getNumberOfTools: () => 1, getTool: () => world.tool}), getFirstTool: () => world.tool,
     ...all(() => ({lower: origin, upper: origin}), "getWorkpiece", "getFixture"), getLangId: () => "us", getHeaderDate: () => new Date(0),

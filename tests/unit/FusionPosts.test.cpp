@@ -82,6 +82,33 @@ TEST_CASE("fusion posts: an include that includes itself is named, and one that 
   CHECK_MESSAGE(ends.status == 0, ends.err);
 }
 
+TEST_CASE("fusion posts: scripts without an end are stopped with the limit that they meet") {
+  const ProcessFolder folder;
+  folder.write("job.toml", "schema = 1\n\n[[section]]\ntool = { number = 1 }\n");
+  const auto stopped = [&](const std::string& body, const std::string& message) {
+    INFO(body);
+    folder.write("post.cps", "function onOpen() {\n" + body + "\n}\n");
+    const ShellResult run = folder.run("dotek run-post post.cps job.toml --limit script-seconds=1; ls");
+    CHECK_MESSAGE(run.err.find(message) != std::string::npos, run.err);
+    CHECK(run.out == "job.toml\npost.cps\n");
+  };
+  stopped("for (;;) {}", "it has no end or is too slow");
+  stopped("try { for (;;) {} } finally { for (;;) {} }", "it has no end or is too slow");
+  stopped("var a = 'a'; for (var i = 0; i < 40; ++i) { a += 'a'; } a = /^(a+)+$/.test(a + '!');",
+          "it has no end or is too slow");
+  stopped("[3, 2, 1].sort(function () { for (;;) {} });", "it has no end or is too slow");
+  stopped("var s = 'x'; for (;;) { s += s; }", "it needs more than 64 MB of memory");
+  stopped("var a = [1]; for (;;) { a = a.concat(a); }", "it needs more than 64 MB of memory");
+  stopped("for (;;) { log('much'); }", "it needs more than 64 MB of memory");
+  stopped("for (;;) { writeln('0123456789'); }", "it wrote more than");
+  stopped("redirectToFile('../out'); for (;;) { writeln('0123456789'); }", "it wrote more than");
+  stopped("var o = {}; o.o = o; JSON.stringify(o);", "cyclic input");
+  stopped("(function f() { f(); }());", "callstack limit");
+  stopped("var o = {toString: function () { return '' + this; }}; writeln(o);", "stack depth limit");
+  stopped("JSON.parse(new Array(100000).join('['));", "recursion limit");
+  stopped("include('post.cps');", "include: `post.cps`");
+}
+
 TEST_CASE("fusion posts: the kernel and the list of its names agree") {
   const stdlib::DataFiles data;
   const auto names = stdlib::FusionNames::load(data);

@@ -1,6 +1,6 @@
 function onOpen() {
   var later = [];
-  for (let i = 0; i < 3; ++i) {
-    later.push(function () { return i; });
+  for (let i = 0, last = function () { return i; }; i < 3; ++i) {
+    later.push(last);
   }
 }
