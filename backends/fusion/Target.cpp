@@ -4,8 +4,10 @@
 
 #include "backends/fusion/Emit.h"
 #include "backends/fusion/TargetCycle.h"
+#include "backends/fusion/TargetProgram.h"
 #include "backends/fusion/TargetVerifyCycle.h"
 #include "ir/Fold.h"
+#include "project/Lowering.h"
 #include "support/messages/Commands.h"
 #include "support/messages/Fusion.h"
 #include "support/messages/Nc.h"
@@ -14,6 +16,7 @@
 #include "targets/Target.h"
 
 #include <algorithm>
+#include <filesystem>
 
 namespace dotek::targets {
 
@@ -31,9 +34,11 @@ void dropNotesOfPrograms(Diagnostics& diagnostics) {
 }
 
 void checkFusionConvert(const ConvertOptions& options, Diagnostics& diagnostics) {
-  const bool cycles = std::any_of(options.inputs.begin(), options.inputs.end(),
-                                  [](const std::string& path) { return path.ends_with(".cycle"); });
-  if (!options.source.prog && !cycles) diagnostics.report<diag::FusionNeedsProg>({});
+  std::error_code fault;
+  const bool folders =
+      std::all_of(options.inputs.begin(), options.inputs.end(),
+                  [&](const std::string& path) { return std::filesystem::is_directory(path, fault); });
+  if (!options.source.prog && folders) diagnostics.report<diag::FusionNeedsProg>({});
 }
 
 void refuseFlag(std::string_view flag, Diagnostics& diagnostics) {
@@ -58,6 +63,23 @@ public:
     return true;
   }
 
+  void program(const std::string& path) override {
+    std::optional<CalledCycle> called = calledProgram(path, context_);
+    const auto control =
+        called ? loadControl(options_.control.empty() ? std::string(kDefaultControl) : options_.control,
+                             session_)
+               : std::nullopt;
+    if (!control) return;
+    stdlib::MacroSet none;
+    none.title = "the program";
+    fusion::EmitOptions emit{*control, none, false, {}, {}, {}, {}, {}, options_.helpersApart};
+    programControl_ = *control;
+    emit.call = std::move(called->call);
+    const ir::Cycle& cycle = called->lowered.cycle;
+    keep(cycle, fusion::emit(cycle, emit, session_.diagnostics()), true);
+    context_.result.arguments.push_back(std::move(called->arguments));
+  }
+
   void finish() override {
     if (!options_.probeMacros) dropNotesOfPrograms(session_.diagnostics());
     // An alarm is printed with its number, whatever the macros are.
@@ -65,7 +87,8 @@ public:
                   [](const Diagnostic& one) { return one.code == diag::AlarmRenumbered::code; });
     if (parts_.empty()) return;
     if (options_.helpersApart)
-      context_.result.helpers = fusion::sharedHelpers(*context_.inputs->sourceControl);
+      context_.result.helpers =
+          fusion::sharedHelpers(programControl_ ? *programControl_ : *context_.inputs->sourceControl);
     if (!options_.wholePost) {
       for (Part& part : parts_)
         write(part.prefix + ".js", std::move(part.lines));
@@ -185,6 +208,7 @@ private:
   }
 
   std::vector<Part> parts_;
+  std::optional<stdlib::Control> programControl_; // of inputs that are programs
 };
 
 constexpr TargetFlag kFlags[] = {TargetFlag::ProbeMacros, TargetFlag::WholePost,     TargetFlag::Helpers,
@@ -205,6 +229,7 @@ DOTEK_TARGET(fusion) = {
     .checkConvert = checkFusionConvert,
     .controlOfForm = true,
     .takesCycleFiles = true,
+    .writesPrograms = true,
     .convert = conversionBy<FusionConversion>,
     .verify = verificationOf,
 };

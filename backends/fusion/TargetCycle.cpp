@@ -16,8 +16,6 @@ namespace target {
 extern const Target fanuc; // writes the program
 }
 
-namespace {
-
 // Without the `%` around them.
 std::vector<backends::EmittedLine> linesOf(const OutputFile& file, const MappedResult& map) {
   std::vector<backends::EmittedLine> out;
@@ -30,8 +28,6 @@ std::vector<backends::EmittedLine> linesOf(const OutputFile& file, const MappedR
   }
   return out;
 }
-
-} // namespace
 
 std::optional<CalledCycle> calledCycle(const CycleFolder& folder, std::size_t index, const std::string& file,
                                        ConversionContext& context) {

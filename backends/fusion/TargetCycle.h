@@ -7,6 +7,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace dotek::targets {
 
@@ -19,6 +20,8 @@ struct CalledCycle {
   std::map<ir::VariableId, std::string> groups;
 };
 
+// Without the `%` around them.
+std::vector<backends::EmittedLine> linesOf(const OutputFile& file, const MappedResult& map);
 // nullopt: refused, reported. `file`: of the folder.
 std::optional<CalledCycle> calledCycle(const CycleFolder& folder, std::size_t index, const std::string& file,
                                        ConversionContext& context);

@@ -154,13 +154,13 @@ function engine(world, section, tool, refuse) {
       "hasGlobalParameter", "isInteractionAllowed", "isPolarModeActive", "isWorkpieceDefined", "isSpeedFeedSynchronizationActive"),
     ...all(() => "", "getOutputPath", "getProgramName", "getProduct", "getHeaderVersion", "getSimulationStreamPath", "getCoolantName",
       "getMaterialName", "getCommandStringId", "loadText", "getIntermediatePath", "getPlatform", "getConfigurationFolder", "findFile"),
-    ...all(() => 0, "getCurrentSectionId", "getCyclePointId", "getCompensationOffset", "getRadiusCompensation", "getPolarMode", "getFeedrate", "getCircularPlane"),
+    ...all(() => 0, "getCurrentSectionId", "getCyclePointId", "getCompensationOffset", "getPolarMode", "getFeedrate", "getCircularPlane"),
     ...all(() => 1, "getNumberOfSections", "getNumberOfCyclePoints", "getNumberOfRecords"), getSection: () => world.currentSection,
     getToolTable: () => ({getNumberOfTools: () => 1, getTool: () => world.tool}), getFirstTool: () => world.tool,
     ...all(() => ({lower: origin, upper: origin}), "getWorkpiece", "getFixture"), getLangId: () => "us", getHeaderDate: () => new Date(0),
     ...all(() => new Matrix(), "getRotation"), ...all(() => new Vector(), "getTranslation", "getCurrentABC"),
     ...all(() => new Vector(0, 0, 1), "getCurrentDirection"), ...all((one) => one, "getWCSPosition", "getGlobalPosition"), isInspectionOperation: () => false,
-    getToolTypeName: () => "probe",
+    getToolTypeName: () => "probe", getRadiusCompensation: () => "RADIUS_COMPENSATION_OFF",
     isProbeOperation: () => true, expandManualNC() {}, setProperty: (name, value) => {
       const key = typeof name === "string" ? world.properties[name] : name;
       if (key !== null && typeof key === "object") { key.value = value; } else { world.properties[name] = value; }

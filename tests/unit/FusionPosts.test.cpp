@@ -163,6 +163,29 @@ TEST_CASE("fusion posts: lines of a buffer are those of who wrote them there") {
   CHECK(out == "onOpen\nonCycleEnd\nonClose\nonCyclePoint\nonCyclePoint\nonCyclePoint\nonClose\n");
 }
 
+TEST_CASE(
+    "fusion posts: a program of macro B is called with what the operation gives, and its text follows") {
+  const ProcessFolder folder;
+  folder.write("face.nc",
+               "%\nO9001(FACE)\nIF[#23EQ#0]THEN#3000=1(W IS MISSING)\n#1=#5041\nG65P9811X[#1+#23]\n"
+               "IF[ABS[#138]LE#17]GOTO10\n#3000=2(BEYOND THE LIMIT)\nN10M99\n%\n");
+  folder.write(
+      "job.toml",
+      "schema = 1\n\n[[section]]\nstrategy = \"drill\"\ntool = { number = 7, type = \"TOOL_PROBE\" }\n"
+      "properties = { face_give_W = \"1\", face_W = 12.5 }\n\n[[section.step]]\ncycle = \"drilling\"\n"
+      "points = [[1.0, 2.0, -3.0]]\nwith = { clearance = 25.0, retract = 5.0, feedrate = 100.0 }\n");
+  const ShellResult run = folder.run(
+      "dotek convert face.nc --to fusion --whole-post -o face.cps && dotek run-post face.cps job.toml");
+  CHECK_MESSAGE(run.status == 0, run.err);
+  CHECK(run.out.find("G90 G0 Z25.\nX1. Y2.\nZ-3.\nG65 P9001 W12.5\nM30\nO9001(FACE)\n") != std::string::npos);
+  // What is decided on the measured value stays text.
+  CHECK(run.out.find("IF[ABS[#138] LE #17]GOTO 10\n#3000=2(BEYOND THE LIMIT)\nN10 M99\n%\n") !=
+        std::string::npos);
+  const ShellResult fragment = folder.run("dotek convert face.nc --to fusion && dotek lint face.cps");
+  CHECK(fragment.out.find("properties.face_W") != std::string::npos);
+  CHECK(fragment.out.find("properties.face_A ") == std::string::npos); // #1 is given by the program itself
+}
+
 TEST_CASE("fusion posts: a job that `new job` writes runs") {
   const ProcessFolder folder;
   folder.write("drill.cps",
