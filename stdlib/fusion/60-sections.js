@@ -241,6 +241,7 @@ Section.prototype.getNumberOfRecords = function () { return this.dotekRecords.le
 Section.prototype.checkGroup = function (group) {
   return group === values.STRATEGY_DRILLING && (this.strategy === "drill" || isDrilling(this.getFirstCycle()));
 };
+Section.prototype.doesToolpathFitWithinLimits = function () { return true; }; // travels of the machine are not asked
 Section.prototype.getContentFlags = function () { return 0; };
 Section.prototype.getToolChange = function () { return true; };
 

@@ -153,7 +153,7 @@ function engine(world, section, tool, refuse) {
     ...all(() => false, "isTurning", "isJet", "isMultiAxis", "hasNextSection", "isDrillingCycle", "isTappingCycle", "isSubSpindleCycle",
       "hasGlobalParameter", "isInteractionAllowed", "isPolarModeActive", "isWorkpieceDefined", "isSpeedFeedSynchronizationActive"),
     ...all(() => "", "getOutputPath", "getProgramName", "getProduct", "getHeaderVersion", "getSimulationStreamPath", "getCoolantName",
-      "getMaterialName", "getCommandStringId", "loadText", "getIntermediatePath", "getPlatform", "getConfigurationFolder", "findFile"),
+      "getMaterialName", "getCommandStringId", "loadText", "getIntermediatePath", "getPlatform", "getConfigurationFolder", "getConfigurationPath", "findFile"),
     ...all(() => 0, "getCurrentSectionId", "getCyclePointId", "getCompensationOffset", "getPolarMode", "getFeedrate", "getCircularPlane"),
     ...all(() => 1, "getNumberOfSections", "getNumberOfCyclePoints", "getNumberOfRecords"), getSection: () => world.currentSection,
     getToolTable: () => ({getNumberOfTools: () => 1, getTool: () => world.tool}), getFirstTool: () => world.tool,

@@ -186,7 +186,8 @@ function runOne(text, type) {
       vm.runInContext(fs.readFileSync(path.join(path.dirname(process.argv[2]), name), "utf8"), context, {filename: "included"});
     },
     hasParameter: section.hasParameter, getParameter: section.getParameter,
-    getFramePosition: (one) => one, getCurrentPosition: () => position};
+    getFramePosition: (one) => one, getCurrentPosition: () => position, invokeOnRapid: (...to) => call("onRapid", ...to),
+    invokeOnLinear: (...to) => call("onLinear", ...to)};
   Object.assign(world, engine(world, section, tool, (problem) => { throw new Refused(problem); }));
   lackingNames(text, world);
   const context = vm.createContext(world);
