@@ -28,6 +28,10 @@ void addConvert(CLI::App& app, Raw& raw) {
   addOfProgram(*convert, raw);
   convert->add_option("--program-number", raw.programNumber, "O number of the program (8000)")
       ->type_name("N");
+  addSeveral(*convert, "--var", raw.variables,
+             "of a program, with --to mikroprog: run it with this value of a variable, and write the plain "
+             "blocks of the run",
+             "N=VALUE");
   convert->add_flag("--whole-post", raw.wholePost, "with --to fusion: the smallest post around the cycles");
   convert
       ->add_option("--helpers", raw.helpersFile,
@@ -89,6 +93,7 @@ driver::ConvertOptions convertOf(const Raw& raw) {
   out.useDefaults = raw.defaultsMode == "use";
   out.switchProbe = raw.probePower == "macro";
   out.wholePost = raw.wholePost;
+  out.variables = pairsOf("--var", raw.variables);
   out.helpersApart = !raw.helpersFile.empty();
   out.verify = raw.verify;
   out.keepGoing = raw.keepGoing;

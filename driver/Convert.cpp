@@ -1,5 +1,6 @@
 #include "driver/Command.h"
 #include "driver/Controls.h"
+#include "driver/ConvertFlat.h"
 #include "driver/ConvertVerify.h"
 #include "frontend/gibbs/Ast.h"
 #include "project/Compilation.h"
@@ -12,6 +13,7 @@
 #include "support/messages/Commands.h"
 #include "support/messages/Cycle.h"
 #include "support/messages/Fanuc.h"
+#include "support/messages/Mikroprog.h"
 #include "targets/Conversion.h"
 #include "targets/Target.h"
 
@@ -287,13 +289,24 @@ std::string refusedOf(const ConvertOptions& options, const Outcome& outcome) {
                                      options.inputs.size(), names);
 }
 
+bool takesVariables(const targets::Target& target) {
+  return std::find(target.flags.begin(), target.flags.end(), targets::TargetFlag::Variables) !=
+         target.flags.end();
+}
+
 } // namespace
 
 Outcome convert(const ConvertOptions& given) {
   ConvertOptions options = given;
+  FoundInRuns found;
+  const targets::Target* const target = targets::findTarget(options.to);
+  if (!options.variables.empty() && target != nullptr && takesVariables(*target))
+    if (std::optional<Outcome> failed = takeFlat(options, found)) return std::move(*failed);
   Outcome outcome = guarded(options.common, options.inputs, [&](Session& session) {
     takeControls(options, session);
     takeProbeCodes(options, session);
+    for (const auto& [place, one] : found)
+      session.diagnostics().report<diag::FoundInRun>({}, place, one.message);
     if (session.diagnostics().hasErrors()) return outcomeOf(session, "");
     return ConvertCommand(options, session).run();
   });

@@ -65,6 +65,7 @@ void refuseOptions(const ConvertOptions& options, bool programs, bool cycles, Di
   if (cycles && !programs) {
     if (!options.fromControl.empty()) diagnostics.report<diag::OptionOfPrograms>({}, "--from-control");
     if (options.renumber) diagnostics.report<diag::OptionOfPrograms>({}, "--renumber");
+    if (!options.variables.empty()) diagnostics.report<diag::OptionOfPrograms>({}, "--var");
   }
 }
 

@@ -58,6 +58,7 @@ struct ConvertOptions : TranslationOptions {
   bool oneFile = false;                                            // -o: several inputs are an error
   std::optional<std::pair<std::uint64_t, std::uint64_t>> renumber; // first N number of programs, step
   bool wholePost = false;                                          // --whole-post, of fusion
+  NamedTexts variables; // --var N=VALUE, of programs: what is written are the plain blocks of a run with them
   bool helpersApart = false;          // --helpers, of fusion: what fragments share is given by itself
   bool verify = false;                // --verify: what does not agree with its source is not given
   bool keepGoing = false;             // --keep-going: an input that is refused takes no other with it

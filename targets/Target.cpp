@@ -73,6 +73,7 @@ void checkTargetOptions(const Target& target, const ConvertOptions& options, Dia
                          {TargetFlag::ProbePower, options.switchProbe, "--probe-power macro"},
                          {TargetFlag::WholePost, options.wholePost, "--whole-post"},
                          {TargetFlag::Helpers, options.helpersApart, "--helpers"},
+                         {TargetFlag::Variables, !options.variables.empty(), "--var"},
                          {TargetFlag::Result, !options.results.empty(), "--result"},
                          {TargetFlag::Calls, options.calls != Calls::Inline, "--calls"}};
   refuse(target, options.to, flags, diagnostics);

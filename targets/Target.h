@@ -28,7 +28,8 @@ enum class TargetFlag : std::uint8_t {
   WholePost,
   Helpers,
   Result,
-  Calls
+  Calls,
+  Variables
 };
 
 struct Target {

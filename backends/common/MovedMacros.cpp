@@ -77,7 +77,10 @@ bool holdsKept(const stdlib::MacroSet& macros, const stdlib::Control& control, D
   const auto name = stdlib::movedName(macros.name);
   const auto kept = stdlib::keptVariables(macros);
   if (!name || !name->first || !kept || isKept(control, kept->first, kept->second)) return true;
-  diagnostics.report<diag::MacroVariablesLost>({}, kept->first, kept->second, control.title, name->set);
+  if (macros.needsSkipPosition && !control.variables.skip) // no other variables help
+    diagnostics.report<diag::NoSkipPosition>({}, "macros of " + macros.title, control.title);
+  else
+    diagnostics.report<diag::MacroVariablesLost>({}, kept->first, kept->second, control.title, name->set);
   return false;
 }
 

@@ -304,7 +304,8 @@ private:
     const std::string name = number == nullptr ? "[..]" : numberText(*number);
     if (!std::holds_alternative<ir::MeasuredResult>(store.value->node)) {
       s_.refuse<diag::MikroprogCannot>(origin.range(), "a value in #" + name,
-                                       "the control has parameters P, and nothing says which is free");
+                                       "the control has parameters P, and nothing says which is free; take "
+                                       "the statement out of the branch");
       return;
     }
     s_.diagnostics.report<diag::ResultDropped>(origin.range(), name);

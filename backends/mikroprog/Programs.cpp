@@ -128,7 +128,7 @@ void ProgramWriter::statement(const ir::ProgramStatement& statement, bool subpro
     return cannot(range, "no source describes blocks that can be switched off here", "take the `/` away");
   const auto macro = [&] {
     cannot(range, "this is a statement of macros, and values are fixed when the program is written",
-           "`dotek flatten FILE --var N=VALUE -o FLAT.nc` writes the blocks of a run, and those convert");
+           "`--var N=VALUE` runs the program with that value, and writes the blocks of the run");
   };
   ir::match(
       statement, [](const ir::OneOf<ir::Label, ir::Comment> auto&) {},
@@ -153,7 +153,8 @@ void ProgramWriter::call(const ir::Call& call, SourceRange range) {
                          : ir::constantValue(call.repeats) ? *ir::constantValue(call.repeats)
                                                            : 0;
   if (call.kind != ir::CallKind::Subprogram || number == nullptr)
-    return cannot(range, "programs take no arguments here", "`dotek flatten` writes the blocks of a run");
+    return cannot(range, "programs take no arguments here",
+                  "`--var N=VALUE` runs the program, and writes the blocks of the run");
   const auto program =
       std::find_if(file_.programs.begin(), file_.programs.end(), [&](const ir::Program& one) {
         return static_cast<double>(one.number) == *number && one.number != 0;
@@ -175,7 +176,7 @@ std::optional<double> ProgramWriter::number(const ir::Word& word) {
   const double* const value = ir::constantValue(word.value);
   if (value == nullptr) {
     cannot(word.range, "the value of this word is computed, and values are fixed when the program is written",
-           "`dotek flatten FILE --var N=VALUE -o FLAT.nc` writes the blocks of a run, and those convert");
+           "`--var N=VALUE` runs the program with that value, and writes the blocks of the run");
     return std::nullopt;
   }
   const bool bare = ir::numberWithoutPoint(word.value) != nullptr;

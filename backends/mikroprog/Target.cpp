@@ -269,12 +269,15 @@ void checkDatum(const std::string& datum, Diagnostics& diagnostics) {
 constexpr std::string_view kHosts[] = {"clearance",   "start_x",    "start_y",
                                        "tool_radius", "overtravel", "return_feed"};
 
+constexpr TargetFlag kFlags[] = {TargetFlag::Variables};
+
 } // namespace
 
 namespace target {
 
 DOTEK_TARGET(mikroprog) = {
     .text = "program without arguments, for Mikroprog",
+    .flags = kFlags,
     .checkDatum = checkDatum,
     .ownControls = true,
     .fixesValues = true,

@@ -352,8 +352,10 @@ bool Machine::skipMove(const NcWords& w) {
   const double way = std::sqrt((end[0] - skip.from[0]) * (end[0] - skip.from[0]) +
                                (end[1] - skip.from[1]) * (end[1] - skip.from[1]) +
                                (end[2] - skip.from[2]) * (end[2] - skip.from[2]));
+  // The axes brake on their way, and no farther than it leads.
+  const double braking = lastSkip_ == Skip::Touched ? std::min(stopsBeyond_, way * (1 - *share)) : 0;
   for (std::size_t i = 0; i < kAxes; ++i)
-    beyond_[i] = lastSkip_ == Skip::Touched && way > 0 ? stopsBeyond_ * (end[i] - skip.from[i]) / way : 0;
+    beyond_[i] = way > 0 ? braking * (end[i] - skip.from[i]) / way : 0;
   skippedTurned_ = rotation_.turnedBack(work_);
   if (rotation_.on()) {
     // The program's next words count from where the machine stopped.
