@@ -170,9 +170,13 @@ TEST_CASE("watch: canned cycles go to R, to the bottom and back") {
   CHECK(w.told("G85 X30.") == "rapid 30 5 -98; rapid 30 5 -98; feed 30 5 -104; feed 30 5 -98");
   CHECK(w.told("G80\nG0 Z50.") == "rapid 30 5 -50");
   // In incremental mode each repeat is a step further.
-  CHECK(w.told("G91 G98 G83 X5. Z-6. R-48. Q1. K2") ==
+  CHECK(w.told("G91 G98 G81 X5. Z-6. R-48. K2") ==
         "rapid 35 5 -50; rapid 35 5 -98; feed 35 5 -104; rapid 35 5 -50; "
         "rapid 40 5 -50; rapid 40 5 -98; feed 40 5 -104; rapid 40 5 -50");
+  // Each peck of Q is a way to R and back, down to 1 mm above what is drilled.
+  CHECK(w.told("G83 X5. Z-6. R-48. Q3.") ==
+        "rapid 45 5 -50; rapid 45 5 -98; feed 45 5 -101; rapid 45 5 -98; rapid 45 5 -100; feed 45 5 -104; "
+        "rapid 45 5 -50");
 }
 
 TEST_CASE("watch: the path of back boring is not known, its end is") {
