@@ -3,8 +3,8 @@
 #include "backends/fanuc/ProgramCalls.h"
 #include "frontend/macrob/Lower.h"
 #include "sim/vendor/VendorMacros.h"
-#include "tests/MeasuringCycles.h"
 #include "stdlib/DataFiles.h"
+#include "tests/MeasuringCycles.h"
 #include "tests/unit/ContactWorld.h"
 #include "tests/unit/RunHarness.h"
 

@@ -5,8 +5,8 @@
 #include "frontend/macrob/Parse.h"
 #include "sim/machine/Compile.h"
 #include "sim/vendor/VendorMacros.h"
-#include "tests/MeasuringCycles.h"
 #include "stdlib/DataFiles.h"
+#include "tests/MeasuringCycles.h"
 #include "tests/unit/MeasuredFeatures.h"
 #include "verify/Stand.h"
 

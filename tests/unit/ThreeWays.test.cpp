@@ -2,8 +2,8 @@
 // macros by their meaning or with our own by their text. They leave the same offsets.
 #include "driver/Driver.h"
 #include "sim/vendor/VendorMacros.h"
-#include "tests/MeasuringCycles.h"
 #include "tests/GoldenRunner.h"
+#include "tests/MeasuringCycles.h"
 #include "tests/policy/Tree.h"
 #include "tests/unit/OwnMacros.h"
 

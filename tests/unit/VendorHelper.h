@@ -13,8 +13,9 @@ namespace dotek::tests {
 struct VendorCase : Simulation {
   explicit VendorCase(std::string_view macros = "inspection-plus", double ball = 3,
                       std::optional<double> calibrated = 3, std::string_view control = "fanuc-0i-md")
-      : Simulation(control), set(*stdlib::MacroSet::load(stdlib::DataFiles(), macros)), meaning(set, profile, measuringCycles()),
-        world(ball), trace([this](std::string_view text) { lines += text; }) {
+      : Simulation(control), set(*stdlib::MacroSet::load(stdlib::DataFiles(), macros)),
+        meaning(set, profile, measuringCycles()), world(ball),
+        trace([this](std::string_view text) { lines += text; }) {
     if (calibrated) meaning.setStylusRadius(*calibrated);
     machine->setSkipSignal(&world);
     machine->setTrace(&trace);
