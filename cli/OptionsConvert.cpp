@@ -94,6 +94,9 @@ driver::ConvertOptions convertOf(const Raw& raw) {
   out.switchProbe = raw.probePower == "macro";
   out.wholePost = raw.wholePost;
   out.variables = pairsOf("--var", raw.variables);
+  if (!out.variables.empty() && !raw.mapFile.empty())
+    throw UsageError("--map names lines of the source, and with --var the blocks of a run are written; their "
+                     "comments say from which line each comes");
   out.helpersApart = !raw.helpersFile.empty();
   out.verify = raw.verify;
   out.keepGoing = raw.keepGoing;
