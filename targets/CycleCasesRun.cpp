@@ -34,6 +34,7 @@ TargetRun CaseRunner::runTarget(const Values& values, sim::World& world, bool pr
   now.shown = shown;
   now.rejected = values.rejected;
   now.rejection = values.rejection;
+  now.losesDigits = values.losesDigits || values.rests;
   now.rounding = values.rounding;
   now.inItsDatums = [&] { return runPosted(values, world, probeOn, verify::Stand::Way::MovePath); };
   now.sourceOf = [&](SourceRange posted) { return sourceOf(posted, values); };

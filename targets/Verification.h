@@ -93,6 +93,7 @@ struct TargetCase {
   const verify::DrawnPath* path = nullptr;
   bool rejected = false;           // by the dialog
   std::string_view rejection = {}; // what it says then
+  bool losesDigits = false;        // the post prints fewer digits of a value than it has, or computes it
   // What the source does where each datum that it sets moves the path that follows, as it does in the target.
   std::function<verify::Record()> inItsDatums = {};
   // Where the source says what its record shows at a place of the posted program.

@@ -71,6 +71,11 @@ public:
       compareState(pair_, source_.after, target_.after, " at its alarm", source_.endedAt, target_.endedAt);
     if (!samePrinted())
       add(Aspect::Printed, fmt::format("`{}` against `{}`", source_.printed, target_.printed), {}, {});
+    if (source_.portOpen != target_.portOpen && source_.ending == target_.ending)
+      add(Aspect::Printed,
+          fmt::format("the port is {} at the end against {}", source_.portOpen ? "open" : "closed",
+                      target_.portOpen ? "open" : "closed"),
+          source_.endedAt, target_.endedAt);
     std::stable_sort(out_.begin(), out_.end(),
                      [](const Difference& a, const Difference& b) { return a.aspect < b.aspect; });
     return std::move(out_);

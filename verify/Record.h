@@ -202,7 +202,8 @@ struct Record {
   bool knowsStores = false; // where variables are written is known
   // Of the variables that are watched (Stand::watchStores) those that it leaves with another value.
   std::map<std::uint32_t, double> strays;
-  std::string printed; // by DPRNT and BPRNT, bytes
+  std::string printed;   // by DPRNT and BPRNT, bytes
+  bool portOpen = false; // at the end
   sim::Point3 start, end;
   Surroundings before, after; // what is on at entry and at the end
   bool pathMoved = false;     // by a datum (Stand::Way::MovePath)

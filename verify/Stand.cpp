@@ -146,6 +146,7 @@ Record Stand::run(const sim::Bytecode& code, sim::World& world, const Entry& ent
   machine.setTrace(nullptr);
   Record record = recorder.finish(stores);
   record.printed = run.output();
+  record.portOpen = run.portIsOpen();
   return record;
 }
 

@@ -68,14 +68,23 @@ std::string_view listedDefault(std::string_view program, char letter) {
   return "";
 }
 
-bool saysSo(std::string_view program, std::string_view alarm, std::string_view message) {
+bool saysSo(std::string_view program, std::string_view alarm, std::string_view message,
+            std::size_t alarmLength) {
   const bool ascii = std::all_of(message.begin(), message.end(),
                                  [](char c) { return static_cast<unsigned char>(c) < 0x80; });
   if (!ascii) return true;
   const std::string wanted = plain(message);
   // What a cycle finds at its table, a program asks before.
   const bool noTool = message.starts_with("there is no tool offset") && alarm.starts_with("TOOL OFFSET NOT");
-  return noTool || wanted.find(plain(alarm)) != std::string::npos ||
+  // What the dialog says is between the marks of the sentence.
+  std::string_view said = message;
+  if (const std::size_t end = message.rfind('`'); end != std::string_view::npos && end > 0)
+    if (const std::size_t begin = message.rfind('`', end - 1); begin != std::string_view::npos)
+      said = message.substr(begin + 1, end - begin - 1);
+  const std::string shown = plain(alarm), whole = plain(said);
+  const bool isWhole =
+      whole == shown || (said.size() > alarmLength && whole.find(shown) != std::string::npos);
+  return noTool || isWhole ||
          ((kSystemAlarm.starts_with(alarm) || kExtendedAlarm.starts_with(alarm)) &&
           !hasAlarm(program, wanted));
 }

@@ -207,7 +207,7 @@ void FanucVerification::compareRejection(const verify::Record& record, const Tar
   else if (!from_.plan.cycleFile && project::isWithoutMessage(now.rejection) &&
            raises(translation_.text, record.text))
     out.refused = true; // the text is the translation's own
-  else if (!saysSo(translation_.text, record.text, now.rejection) &&
+  else if (!saysSo(translation_.text, record.text, now.rejection, control_.alarmLength) &&
            !asksForOffset(from_.plan, now.drawn, record.text, control_.variables.toolCount))
     out.differsAt(
         verify::Aspect::Ending,
@@ -309,7 +309,7 @@ void FanucVerification::compareRecords(const TargetCase& now, const verify::Reco
   const std::uint32_t line = text_.line(record.endedAt);
   if (from_.plan.cycleFile && source.ending == verify::Ending::Alarm && source.alarmKind.empty() &&
       record.ending == verify::Ending::Alarm && record.alarm >= kOwnAlarms && !translation_.madeUp(line) &&
-      !saysSo(translation_.text, record.text, source.text))
+      !saysSo(translation_.text, record.text, source.text, control_.alarmLength))
     out.differsAt(verify::Aspect::Ending,
                   fmt::format("an alarm (`{}`) against `{}`", source.text, record.text), line);
   // Another vendor's macro may begin where the ball is already in contact: at an edge the travel is that

@@ -45,6 +45,7 @@ public:
   void run();
   // What DPRNT and BPRNT printed, bytes.
   const std::string& output() const { return output_; }
+  bool portIsOpen() const { return portOpen_; } // POPEN without PCLOS after it
   // Each place once, in the order of the run.
   const std::vector<EarlyRead>& earlyReads() const { return early_; }
   // Before the run: motion of the caller may be waiting, and what a macro without text has moved last may be,

@@ -100,6 +100,7 @@ TEST_CASE("verify: the same program does the same") {
 
 TEST_CASE("verify: each aspect has its difference") {
   CHECK(differing("G0X10.\n", "G0X11.\n") == Aspects{Aspect::Path, Aspect::End});
+  CHECK(differing("POPEN\nDPRNT[A]\nPCLOS\n", "POPEN\nDPRNT[A]\n") == Aspects{Aspect::Printed});
   CHECK(differing("G0X10.\nX0\n", "G1X10.F500.\nG0X0\n") == Aspects{Aspect::Path});
   CHECK(differing("G0X10.\nX20.\nX10.\n", "G0X10.\n") == Aspects{Aspect::Path});
   CHECK(differing(kOn + "G65P9810X10.F500.\n", kOn + "G1X10.F500.\nG0\n") == Aspects{Aspect::Path});

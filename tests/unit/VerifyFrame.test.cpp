@@ -201,6 +201,8 @@ TEST_CASE("verify sees what a fragment owes its post") {
   CHECK(verified(source, "fusion", good, 10).status == 0);
   const std::vector<Damage> damages = {
       {"xOutput.reset();", "", "", "`xOutput` not reset"},
+      {"var clearance = surfaceX_given(", "surfaceX_given(cycle.clearance)", "cycle.clearance",
+       "the fragment warns of more digits than are printed"},
       {"gMotionModal.reset();", "", "", "`gMotionModal` not reset"},
       {"surfaceX_write(x, y, z);", ";", "; return false;", "does not return true"},
       {"case \"surfaceX\":", "surfaceX", "surfaceY", ""},

@@ -149,6 +149,13 @@ TEST_CASE("verify: a bore that is measured until it repeats meets the end of its
   }
 }
 
+TEST_CASE("verify: an alarm of the dialog that is cut though the control shows all of it is another one") {
+  const Shop corner{"bounded", "LK-TWO-FACE", "probes", "fanuc", "dotek", "fanuc-31i-b"};
+  const std::string good = converted(corner);
+  CHECK_MESSAGE(agrees(verified(corner)), verified(corner));
+  CHECK(differs(corner, replaced(good, "(ALONG 2 MM OR MORE)\n", "(ALONG 2 MM)\n")));
+}
+
 TEST_CASE("verify: a height that the operator reads before it sets the offset") {
   const Shop step{"classes", "SG.Steg.Hojd", "matcykel", "fanuc", "inspection-plus", "fanuc-31i-b"};
   const std::string good = converted(step);
