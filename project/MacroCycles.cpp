@@ -73,7 +73,7 @@ std::map<const cycle::File*, cycle::MacroCycle> macroCycles(const stdlib::MacroS
 }
 
 std::map<std::string, ir::Cycle, std::less<>>
-measuringCycles(std::initializer_list<const stdlib::MacroSet*> sets, Session& session) {
+measuringCycles(const std::vector<const stdlib::MacroSet*>& sets, Session& session) {
   std::map<std::string, ir::Cycle, std::less<>> out;
   CycleFiles files(session);
   const auto add = [&](const std::string& name) {

@@ -6,9 +6,9 @@
 #include "stdlib/MacroSet.h"
 
 #include <functional>
-#include <initializer_list>
 #include <map>
 #include <string>
+#include <vector>
 
 namespace dotek::project {
 
@@ -21,6 +21,6 @@ std::map<const frontend::cycle::File*, frontend::cycle::MacroCycle> macroCycles(
 // What programs of the sets measure, as cycles by their names (stdlib::libraryCycle(), islandCycle()). One of
 // a folder of --data that has a mistake is reported and missing. A set that is nullptr has none.
 std::map<std::string, ir::Cycle, std::less<>>
-measuringCycles(std::initializer_list<const stdlib::MacroSet*> sets, Session& session);
+measuringCycles(const std::vector<const stdlib::MacroSet*>& sets, Session& session);
 
 } // namespace dotek::project

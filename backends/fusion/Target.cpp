@@ -64,12 +64,10 @@ public:
   }
 
   void program(const std::string& path) override {
-    std::optional<CalledCycle> called = calledProgram(path, context_);
     const auto control =
-        called ? loadControl(options_.control.empty() ? std::string(kDefaultControl) : options_.control,
-                             session_)
-               : std::nullopt;
-    if (!control) return;
+        loadControl(options_.control.empty() ? std::string(kDefaultControl) : options_.control, session_);
+    std::optional<CalledCycle> called = control ? calledProgram(path, *control, context_) : std::nullopt;
+    if (!called) return;
     stdlib::MacroSet none;
     none.title = "the program";
     fusion::EmitOptions emit{*control, none, false, {}, {}, {}, {}, {}, options_.helpersApart};

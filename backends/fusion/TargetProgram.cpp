@@ -1,13 +1,16 @@
 #include "backends/fusion/TargetProgram.h"
 
+#include "stdlib/MacroSet.h"
 #include "support/messages/Fusion.h"
+#include "support/messages/Verify.h"
+#include "targets/ReadBack.h"
 #include "targets/Target.h"
+#include "verify/Variables.h"
 
 #include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <filesystem>
-#include <set>
 
 namespace dotek::targets {
 
@@ -16,10 +19,6 @@ extern const Target fanuc; // writes the program
 }
 
 namespace {
-
-constexpr std::uint32_t kLastArgument = 26;
-// By the number of the local variable, as G65 fills it; a blank: no letter does.
-constexpr std::string_view kLetters = " ABCIJKDEF H M   QRSTUVWXYZ";
 
 std::string withoutComments(std::string_view text) {
   std::string out;
@@ -46,52 +45,10 @@ bool hasCode(std::string_view text, std::string_view code) {
   return false;
 }
 
-// Where a jump may arrive: labels that a GOTO names, all of them where it computes one, and ends of loops.
-class Arrivals {
-public:
-  explicit Arrivals(const std::vector<std::string>& lines) {
-    for (const std::string& line : lines)
-      for (std::size_t at = 0; (at = line.find("GOTO", at)) != std::string::npos; at += 4) {
-        const std::uint32_t label = digitsAt(line, at + 4);
-        computed_ = computed_ || label == 0;
-        labels_.insert(label);
-      }
-  }
-  bool at(const std::string& line) const {
-    if (line.find("END") != std::string::npos) return true;
-    return line.starts_with('N') && (computed_ || labels_.contains(digitsAt(line, 1)));
-  }
-
-private:
-  std::set<std::uint32_t> labels_;
-  bool computed_ = false;
-};
-
-// Local variables that hold what the caller gives: those that are read where the program may not have given
-// them a value itself.
-std::set<std::uint32_t> argumentsOf(const std::vector<std::string>& lines) {
-  const Arrivals arrivals(lines);
-  std::set<std::uint32_t> out, given; // given: since the last arrival
-  for (const std::string& line : lines) {
-    if (arrivals.at(line)) given.clear();
-    const std::size_t from = line.starts_with('N') ? line.find_first_not_of("0123456789", 1) : 0;
-    const std::string_view rest =
-        from == std::string::npos ? std::string_view() : std::string_view(line).substr(from);
-    const std::size_t equals = rest.find('=');
-    const bool gives = rest.starts_with('#') && equals != std::string_view::npos && rest.find('[') > equals;
-    const std::string_view read = gives ? rest.substr(equals) : rest;
-    for (std::size_t at = 0; (at = read.find('#', at)) != std::string_view::npos; ++at)
-      if (const std::uint32_t number = digitsAt(read, at + 1);
-          number > 0 && number <= kLastArgument && !given.contains(number))
-        out.insert(number);
-    if (gives) given.insert(digitsAt(rest, 1));
-  }
-  return out;
-}
-
 } // namespace
 
-std::optional<CalledCycle> calledProgram(const std::string& path, ConversionContext& context) {
+std::optional<CalledCycle> calledProgram(const std::string& path, const stdlib::Control& control,
+                                         ConversionContext& context) {
   Session& session = context.session;
   ConversionContext programs{context.options, context.compilation, session,
                              context.folders, context.usedSets,    context.inputs};
@@ -106,7 +63,6 @@ std::optional<CalledCycle> calledProgram(const std::string& path, ConversionCont
     session.diagnostics().report<diag::FusionProgram>({}, path, why);
     return std::nullopt;
   };
-  std::vector<std::string> lines;
   std::string title;
   bool returns = false, first = true;
   for (const backends::EmittedLine& line : out.call.lines) {
@@ -124,21 +80,29 @@ std::optional<CalledCycle> calledProgram(const std::string& path, ConversionCont
     if (hasCode(text, "M30") || hasCode(text, "M2") || hasCode(text, "M02"))
       return refuse("it ends the whole run");
     returns = returns || hasCode(text, "M99");
-    lines.push_back(text);
   }
   if (!returns) return refuse("it has no M99");
 
   ir::Cycle& cycle = out.lowered.cycle;
   cycle.name = std::filesystem::path(path).stem().generic_string();
   cycle.title = title;
-  for (const std::uint32_t number : argumentsOf(lines)) {
-    const char letter = kLetters[number];
-    if (letter == ' ') continue;
+  // What it may read before it gives it a value itself is the caller's.
+  SourceMap sources;
+  Diagnostics found;
+  const auto file =
+      readBack(path, programs.result.files.front().text, control, session.limits(), sources, found);
+  if (!file) {
+    session.diagnostics().report<diag::TranslationNotRead>({}, path, firstError(found));
+    return std::nullopt;
+  }
+  for (const verify::ProgramVariable& one : verify::variablesOf(*file, control, {})) {
+    const char letter = one.local ? stdlib::letterOfLocal(one.number) : '\0';
+    if (letter == 0) continue;
     ir::Variable variable;
     variable.name = std::string(1, letter);
     variable.role = ir::Role::Parameter;
     variable.optional = true;
-    variable.meaning = "Argument " + variable.name + ", #" + std::to_string(number);
+    variable.meaning = "Argument " + variable.name + ", #" + std::to_string(one.number);
     const ir::VariableId id = cycle.add(std::move(variable));
     out.call.arguments.push_back({id, letter});
     out.arguments.push_back({std::string(1, letter), letter});

@@ -10,6 +10,7 @@
 namespace dotek::targets {
 
 // As it is written for the control of the command. nullopt: refused, reported.
-std::optional<CalledCycle> calledProgram(const std::string& path, ConversionContext& context);
+std::optional<CalledCycle> calledProgram(const std::string& path, const stdlib::Control& control,
+                                         ConversionContext& context);
 
 } // namespace dotek::targets

@@ -89,16 +89,19 @@ std::unique_ptr<SimMacros> SimMacros::load(const std::optional<std::string>& cho
     return nullptr;
   }
   noteOwnPrograms(called, out->sets_, library, session);
+  const auto isCalled = [&](const stdlib::MacroSet* set) {
+    return std::any_of(called.begin(), called.end(),
+                       [&](std::uint32_t program) { return set->calls(program); });
+  };
+  std::vector<const stdlib::MacroSet*> meant; // that run by their meaning
   for (const stdlib::MacroSet* set : out->sets_) {
     const std::optional<std::string> text = stdlib::macroText(session.data(), set->name);
     if (!text) {
-      out->cycles_.merge(project::measuringCycles({set}, session));
+      if (isCalled(set)) meant.push_back(set);
       out->meanings_.emplace_back(*set, control, out->cycles_);
       continue;
     }
-    const bool wanted =
-        std::any_of(called.begin(), called.end(), [&](std::uint32_t program) { return set->calls(program); });
-    if (!wanted) continue;
+    if (!isCalled(set)) continue;
     const std::optional<FileId> id = addText("macrob/" + set->name + ".nc", *text, Encoding::Utf8,
                                              std::nullopt, session.sources(), session.diagnostics());
     std::optional<ir::ProgramFile> file;
@@ -108,6 +111,7 @@ std::unique_ptr<SimMacros> SimMacros::load(const std::optional<std::string>& cho
     for (const std::uint32_t program : called)
       if (set->calls(program)) out->texts_.insert(program);
   }
+  out->cycles_ = project::measuringCycles(meant, session);
   return out;
 }
 
