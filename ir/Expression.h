@@ -96,7 +96,7 @@ enum class BinaryOp : std::uint8_t {
   Multiply,
   Divide,
   Modulo,
-  Direction, // angle of (x = right, y = left), above -180 up to 180
+  Direction, // angle of (x = left, y = right), above -180 up to 180
   BitAnd,
   BitOr,
   BitXor,

@@ -128,6 +128,7 @@ private:
                                       const SourceQuestions::Growth& grown) const;
   bool meetsLimit(const Values& values, bool probeOn);
   void runAtBounds(const verify::Case& drawn, CaseResult& result);
+  void runAtLimits(const Values& drawn, bool probeOn, CaseResult& result);
   void addFinding(CaseResult& result, const verify::Difference& difference, const Values& values) const;
   CaseResult runOne(const verify::Case& drawn);
   void noteAlarm(const verify::Record& source, const Values& values);
@@ -164,6 +165,7 @@ private:
   std::vector<std::pair<std::uint32_t, double>> variables_; // of --var
   std::set<std::uint32_t>
       switches_; // macros of the source's control that switch the probe and do nothing else
+  std::set<std::pair<std::size_t, std::size_t>> atBounds_; // comparisons and fields that were met so far
   std::map<std::string, bool> moving_; // fields of which Questions knows whether they move something
 
   const stdlib::MacroSet* sourceSet_ = nullptr;

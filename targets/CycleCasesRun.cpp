@@ -269,8 +269,10 @@ CaseResult CaseRunner::runOne(const verify::Case& drawn) {
       return result;
     }
     takeRun(result, std::move(ran), *values, &*source);
-    if (drawn.callers && !values->rejected && result.findings.empty() && result.why.empty())
+    if (drawn.callers && !values->rejected && result.findings.empty() && result.why.empty()) {
       runAtBounds(drawn, result);
+      if (result.findings.empty() && target_->takesTies()) runAtLimits(*values, probeOn, result);
+    }
   } else if (values->path && !values->rejected) {
     for (const verify::Difference& difference :
          verify::compare(*values->path, {}, *source, pathTolerance(*values)))
@@ -285,17 +287,26 @@ CaseResult CaseRunner::runOne(const verify::Case& drawn) {
 
 // What the dialog rejects where one of its checks turns, the translation has to reject.
 void CaseRunner::runAtBounds(const verify::Case& drawn, CaseResult& result) {
-  runBesideBounds(plan_, drawn, result, [&](const verify::Case& beside) {
-    const std::unique_ptr<Values> values = check(beside, false);
-    if (stopped_) return false;
-    if (!values || !values->rejected) return true;
-    values->part = emptyPart(zeroOf(beside));
-    sim::World world(*values->part, probeFor(plan_, beside));
-    TargetRun ran = runTarget(*values, world, false, nullptr);
-    if (!ran.refused && !ran.undecided && ran.stopped.empty())
-      takeRun(result, std::move(ran), *values, nullptr);
-    return true;
-  });
+  runBesideBounds(
+      plan_, drawn, result,
+      [&](const verify::Case& beside) {
+        const std::unique_ptr<Values> values = check(beside, false);
+        if (stopped_) return false;
+        if (!values || !values->rejected) return true;
+        values->part = emptyPart(zeroOf(beside));
+        sim::World world(*values->part, probeFor(plan_, beside));
+        TargetRun ran = runTarget(*values, world, false, nullptr);
+        if (!ran.refused && !ran.undecided && ran.stopped.empty())
+          takeRun(result, std::move(ran), *values, nullptr);
+        return true;
+      },
+      [&](verify::Case beside, const verify::Bound& bound) {
+        if (!atBounds_.emplace(bound.comparison, bound.field).second) return true; // in another case
+        beside.edge = true;
+        CaseResult other = runOne(beside);
+        if (other.verdict == CaseVerdict::Differ) result.findings = std::move(other.findings);
+        return !stopped_;
+      });
 }
 
 void CaseRunner::noteStopped(const TargetRun& ran, const verify::Case& drawn) {

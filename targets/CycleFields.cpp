@@ -200,6 +200,26 @@ std::set<ir::VariableId> limitsOf(const ir::Cycle& cycle) {
   return out;
 }
 
+// What a question of the body reads, and what that is computed from.
+std::set<ir::VariableId> askedIn(const ir::Cycle& cycle) {
+  std::set<ir::VariableId> out;
+  const auto take = [&](const ir::Expression& node) {
+    if (const auto* use = std::get_if<ir::VariableUse>(&node.node)) out.insert(use->variable);
+  };
+  for (const ir::CycleStatement& one : cycle.body)
+    if (const ir::ConditionPtr* condition = ir::conditionOf(one); condition != nullptr && *condition)
+      ir::eachNode(*condition, take);
+  for (std::size_t before = 0; before != out.size();) {
+    before = out.size();
+    for (const auto* list : {&cycle.checks, &cycle.body})
+      for (const ir::CycleStatement& one : *list)
+        if (const auto* assign = std::get_if<ir::Assign>(&one.node);
+            assign != nullptr && out.contains(assign->variable))
+          ir::eachNode(assign->value, take);
+  }
+  return out;
+}
+
 // By parameters that say at which angle a face is expected: that of the faces that a path shows, which are
 // across its touches.
 std::map<ir::VariableId, double> faceAnglesOf(const ir::Cycle& cycle) {
@@ -296,6 +316,7 @@ void takeFields(const LoweredCycle& lowered, const CycleFolder& folder, const Lo
   plan.bounds = std::make_shared<verify::Bounds>(lowered.cycle);
   const std::set<double> compared = ir::constantsOf(lowered.cycle.checks);
   const std::set<ir::VariableId> limits = limitsOf(lowered.cycle);
+  const std::set<ir::VariableId> asked = askedIn(lowered.cycle);
   const std::map<ir::VariableId, double> faces = faceAnglesOf(lowered.cycle);
   const std::map<std::string, std::vector<double>> offered = offeredIn(folder);
   for (ir::VariableId id = 0; id < lowered.cycle.variables.size(); ++id) {
@@ -312,6 +333,7 @@ void takeFields(const LoweredCycle& lowered, const CycleFolder& folder, const Lo
         list != offered.end() && ir::uses(lowered.cycle, id))
       field.choices = list->second;
     if (const auto face = faces.find(id); face != faces.end()) field.usual = besideFirst(face->second, field);
+    field.decides = asked.contains(id);
     if (limits.contains(id)) field.thresholds.push_back(kBeyondMeasured);
     add(std::move(field), inputs, plan, lowered.macros);
   }

@@ -59,13 +59,16 @@ bool CycleFileRunner::Questions::maySkip(const std::string& name) {
 
 // What the cycle refuses where one of its checks turns, the program has to refuse, with the same text.
 void CycleFileRunner::runAtBounds(const verify::Case& drawn, CaseResult& result) {
-  runBesideBounds(plan_, drawn, result, [&](const verify::Case& beside) {
-    const std::unique_ptr<Played> played = play(beside, false);
-    if (!played->rejected) return true;
-    const TargetRun ran = runTarget(*played, nullptr, nullptr);
-    if (!ran.refused && !ran.undecided && ran.stopped.empty()) takeDifferences(result, ran);
-    return true;
-  });
+  runBesideBounds(
+      plan_, drawn, result,
+      [&](const verify::Case& beside) {
+        const std::unique_ptr<Played> played = play(beside, false);
+        if (!played->rejected) return true;
+        const TargetRun ran = runTarget(*played, nullptr, nullptr);
+        if (!ran.refused && !ran.undecided && ran.stopped.empty()) takeDifferences(result, ran);
+        return true;
+      },
+      [](const verify::Case&, const verify::Bound&) { return true; });
 }
 
 } // namespace dotek::targets

@@ -136,6 +136,7 @@ void CaseRunner::Questions::elsewhere(const verify::PartError& more, const Growt
   const std::optional<sim::Part> part = runner_.partBeside(values_, more, grown);
   if (!part) return;
   sim::World world(*part, probeFor(runner_.plan_, values_.drawn));
+  world.setTie(grown.tie);
   const verify::Record record = runner_.runPosted(values_, world, probeOn_, verify::Stand::Way::Run);
   runner_.noteAlarm(record, values_);
   if (record.ending != verify::Ending::Inconclusive) look(record, world);

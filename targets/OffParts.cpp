@@ -90,25 +90,47 @@ bool counts(const verify::Record& source) {
           (source.alarmKind.empty() || !verify::ownTextOf(source.alarmKind).empty()));
 }
 
+// What moves, and how far.
+struct Moving {
+  SourceQuestions::Growth growth; // `by` and `moved` of one millimetre
+  std::string what;               // "each surface"
+};
+
 // Runs of the source with its surfaces farther along their touches.
 class Grown {
 public:
-  Grown(SourceQuestions& questions, const verify::PartError& more) : questions_(questions), more_(more) {}
+  Grown(SourceQuestions& questions, const verify::PartError& more, const Moving& moving)
+      : questions_(questions), more_(more), moving_(moving) {}
 
   // In steps. nullopt: there is no such run.
   const std::optional<verify::Record>& at(long steps) {
     const auto [known, isNew] = runs_.try_emplace(steps);
     if (isNew)
-      look(steps, [&, at = known](const verify::Record& record, sim::World&) { at->second = record; });
+      look(steps, 0, [&, at = known](const verify::Record& record, sim::World&) { at->second = record; });
     return known->second;
   }
-  void look(long steps, const std::function<void(const verify::Record&, sim::World&)>& shown) {
-    questions_.elsewhere(more_, {millimetres(steps)}, shown);
+  void look(long steps, double tie, const std::function<void(const verify::Record&, sim::World&)>& shown) {
+    SourceQuestions::Growth growth = moving_.growth;
+    growth.by *= millimetres(steps);
+    growth.moved = growth.moved * millimetres(steps);
+    growth.tie = tie;
+    questions_.elsewhere(more_, growth, shown);
   }
   bool sameWayAt(long one, long other) {
     return at(one) && at(other) && verify::sameWay(*at(one), *at(other));
   }
-  // The last step of each way, as far as they show between these.
+  // The last step of each way, as far as they show between these places.
+  template <std::size_t N> std::set<long> turns(const long (&places)[N]) {
+    std::set<long> out;
+    for (std::size_t i = 0; i + 1 < N; ++i)
+      turns(places[i], places[i + 1], out);
+    return out;
+  }
+  static double millimetres(long steps) { return static_cast<double>(steps) / kSteps; }
+
+private:
+  static constexpr double kSteps = 2000; // each half of what a control counts: a size counts it twice
+
   void turns(long from, long to, std::set<long>& out) {
     if (!at(from) || !at(to) || verify::sameWay(*at(from), *at(to))) return;
     if (to - from <= 1) {
@@ -119,45 +141,65 @@ public:
     turns(from, middle, out);
     turns(middle, to, out);
   }
-  static double millimetres(long steps) { return static_cast<double>(steps) / kSteps; }
-
-private:
-  static constexpr double kSteps = 2000; // each half of what a control counts: a size counts it twice
 
   SourceQuestions& questions_;
   const verify::PartError more_;
+  const Moving moving_;
   std::map<long, std::optional<verify::Record>> runs_;
 };
 
 using Compare =
     std::function<std::vector<verify::Difference>(const verify::Record& source, sim::World& world)>;
 
+constexpr long kPlaces[] = {-4000, -600, 0, 600, 4000}; // steps, between which turns are looked for
+constexpr std::size_t kMostTurns = 8;                   // of more it goes another way with each step
+
+const Moving kEachSurface{{.by = 1}, "each surface"};
+
 // Just where the source goes another way because of what it has measured.
 std::vector<verify::Difference> compareTurns(const TargetCase& now, bool exact, const Compare& compare) {
-  constexpr long kPlaces[] = {-4000, -600, 0, 600, 4000};
   constexpr long kApart = 6; // steps: the last digits of two controls lie between
-  constexpr std::size_t kMostTurns = 8;
   verify::PartError more;
   if (exact) { // what the part is off by is on no step
     more.shift = now.drawn.error.shift * -1;
     more.turn = -now.drawn.error.turn;
   }
-  Grown grown(*now.questions, more);
-  std::set<long> turns;
-  for (std::size_t i = 0; i + 1 < std::size(kPlaces); ++i)
-    grown.turns(kPlaces[i], kPlaces[i + 1], turns);
+  Grown grown(*now.questions, more, kEachSurface);
+  const std::set<long> turns = grown.turns(kPlaces);
   std::vector<verify::Difference> found;
   for (const long turn : turns) {
-    if (turns.size() > kMostTurns) break; // it goes another way with each step
+    if (turns.size() > kMostTurns) break;
     for (const long place : {exact ? turn : turn - kApart, exact ? turn + 1 : turn + 1 + kApart}) {
       if (!found.empty() || !grown.sameWayAt(place, place > turn ? turn + 1 : turn)) continue;
-      grown.look(place, [&](const verify::Record& meant, sim::World& world) {
+      grown.look(place, 0, [&](const verify::Record& meant, sim::World& world) {
         if (counts(meant)) found = compare(meant, world);
       });
       for (verify::Difference& one : found)
         one.text =
             fmt::format("with the part off, {}: {}", textOf({Grown::millimetres(place), 0, 0}), one.text);
     }
+  }
+  return found;
+}
+
+// There both sides take what they have measured for the limit itself.
+std::vector<verify::Difference> compareTies(const TargetCase& now, const Moving& moving,
+                                            const Compare& compare) {
+  constexpr double kTie = 0.003; // mm; more than a step, and than what other arithmetic or macros leave
+  Grown grown(*now.questions, {}, moving);
+  const std::set<long> turns = grown.turns(kPlaces);
+  std::vector<verify::Difference> found;
+  if (turns.size() > kMostTurns) return found;
+  for (const long turn : turns) {
+    // Where a search ends two macros do not share the last digit.
+    if (!verify::findsAll(*grown.at(turn)) || !verify::findsAll(*grown.at(turn + 1))) continue;
+    grown.look(turn, kTie, [&](const verify::Record& meant, sim::World& world) {
+      if (counts(meant)) found = compare(meant, world);
+    });
+    for (verify::Difference& one : found)
+      one.text = fmt::format("with {} {} mm farther, so that a measured value is exactly a limit: {}",
+                             moving.what, numberText(Grown::millimetres(turn)), one.text);
+    if (!found.empty()) return found;
   }
   return found;
 }
@@ -189,17 +231,36 @@ std::vector<std::pair<std::size_t, std::size_t>> touchesByMeasure(const verify::
   return out;
 }
 
+// One measurement of several: its touches, and how they are called.
+struct Alone {
+  std::size_t touch = 0, count = 1;
+  std::string what;
+};
+
+// Of very many the first, the last and some between.
+std::vector<Alone> measuredAlone(const TargetCase& now) {
+  constexpr std::size_t kMostMeasures = 6;
+  const auto measures = touchesByMeasure(*now.source, now.questions->touches());
+  std::vector<Alone> out;
+  if (measures.size() < 2) return out;
+  const std::size_t most = std::min(measures.size(), kMostMeasures);
+  for (std::size_t i = 0; i < most; ++i) {
+    const auto& [touch, count] = measures[i * (measures.size() - 1) / (most - 1)];
+    out.push_back({touch, count,
+                   count == 1 ? fmt::format("the surface of touch {}", touch + 1)
+                              : fmt::format("the surfaces of touches {} to {}", touch + 1, touch + count)});
+  }
+  return out;
+}
+
 // What one measurement finds off and the others not: what a program compares between two.
 std::vector<verify::Difference> compareApart(const TargetCase& now, const Compare& compare) {
-  constexpr std::size_t kMostMeasures = 6;
   // mm; on no limit that somebody would give
   constexpr double kApart[] = {0.3171, -1.0433};
   // Its size a little off as well: a difference of exactly 0 has no sign for two macros to agree on.
   const sim::Point3 kMoved{0.2171, -0.4433, 0};
   constexpr double kHardly = 0.0131;
   std::vector<verify::Difference> found;
-  const auto measures = touchesByMeasure(*now.source, now.questions->touches());
-  if (measures.size() < 2 || measures.size() > kMostMeasures) return found;
   const auto look = [&](const SourceQuestions::Growth& growth, const std::string& where) {
     now.questions->elsewhere({}, growth, [&](const verify::Record& meant, sim::World& world) {
       if (counts(meant)) found = compare(meant, world);
@@ -208,16 +269,28 @@ std::vector<verify::Difference> compareApart(const TargetCase& now, const Compar
       one.text = fmt::format("with {}: {}", where, one.text);
     return !found.empty();
   };
-  for (const auto& [touch, count] : measures) {
-    const std::string what = count == 1
-                                 ? fmt::format("the surface of touch {}", touch + 1)
-                                 : fmt::format("the surfaces of touches {} to {}", touch + 1, touch + count);
+  for (const auto& [touch, count, what] : measuredAlone(now)) {
     for (const double by : kApart)
       if (look({by, touch, count}, fmt::format("{} {} mm farther", what, numberText(by)))) return found;
     if (count > 1 &&
         look({kHardly, touch, count, kMoved},
              fmt::format("{} moved by X{} Y{}", what, numberText(kMoved.x), numberText(kMoved.y))))
       return found;
+  }
+  return found;
+}
+
+// All of them, and one after the other.
+std::vector<verify::Difference> compareEachTie(const TargetCase& now, const Compare& compare) {
+  std::vector<verify::Difference> found = compareTies(now, kEachSurface, compare);
+  for (const auto& [touch, count, what] : measuredAlone(now)) {
+    if (!found.empty()) return found;
+    Moving moving{{.by = 1, .touch = touch, .count = count}, what};
+    if (count > 1) { // its size as it is, and its middle at an angle to both axes
+      moving.growth.by = 0;
+      moving.growth.moved = {0.6, 0.8, 0};
+    }
+    found = compareTies(now, moving, compare);
   }
   return found;
 }
@@ -252,6 +325,7 @@ std::vector<verify::Difference> compareOffParts(const TargetCase& now, const Off
   found = compareApart(now, compare);
   if (found.empty()) found = compareTurns(now, false, compare);
   if (found.empty() && rules.exact) found = compareTurns(now, true, compare);
+  if (found.empty() && rules.ties) found = compareEachTie(now, compare);
   return found;
 }
 

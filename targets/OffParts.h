@@ -18,6 +18,7 @@ struct OffRules {
   // Both sides count in eight digits and measure by the same macros, so that they compare what is measured
   // alike: the part is also such that a comparison is met exactly.
   bool exact = false;
+  bool ties = false; // Verification::takesTies
 };
 
 // `compare`: the translation, run in that world, with a run of the source there. The first part on which both

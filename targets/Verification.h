@@ -66,6 +66,7 @@ public:
     std::size_t count = 1;  // surfaces from `touch` on
     sim::Point3 moved = {}; // mm, all of them
     bool uneven = false;    // each by a multiple of `by` of its own
+    double tie = 0;         // mm: sim::World::setTie
   };
   // The values of the case where the part is off by `more` besides, and surfaces lie farther; `look` gets the
   // run and its part, unless there is none.
@@ -147,6 +148,9 @@ public:
   virtual bool needsNominal() const { return false; }
   // Whether both sides compare what is measured alike to the last digit.
   virtual bool meetsLimitsAlike() const { return false; }
+  // Whether what it measures can be made to count as equal to a limit, as in the source
+  // (sim::World::setTie).
+  virtual bool takesTies() const { return false; }
   // Whether each datum moves the path that follows: it then has to fit the part wherever the datums are.
   virtual bool datumsMovePath() const { return false; }
   // Which values the caller of a cycle gives, after prepare(): what he may leave out as he likes, always or

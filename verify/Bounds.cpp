@@ -246,21 +246,26 @@ std::optional<Case> Bounds::meet(const Bound& bound, const std::vector<DrawField
     if (matters(&Case::hosts, "tool_radius")) radius->second = std::max(kHalf, toHalf(radius->second, 1));
   const DrawField& field = fields[bound.field];
   double& value = drawn.values.at(field.name);
-  // Secants: sides are straight lines but for roots and functions of angles.
-  constexpr int kSteps = 12;
-  double last = value;
-  std::optional<double> lastMargin = margin(bound.comparison, drawn);
-  value += 1;
-  for (int step = 0; step < kSteps; ++step) {
-    const std::optional<double> now = margin(bound.comparison, drawn);
-    if (!now || !lastMargin) return std::nullopt;
-    if (*now == 0) return drawn;
-    if (*now == *lastMargin) return std::nullopt;
-    const double next = roundedTo(value - *now * (value - last) / (*now - *lastMargin), field.decimals);
-    if (!(std::abs(next) < kMostMet) || next == value) return std::nullopt;
-    last = std::exchange(value, next);
-    lastMargin = now;
-  }
+  const double own = value;
+  // Secants: sides are straight lines but for roots and functions of angles. An ABS has its bound on the side
+  // of the other sign, too, where another check may let the value pass.
+  const auto meets = [&](double from, double more) {
+    constexpr int kSteps = 12;
+    double last = value = from;
+    std::optional<double> lastMargin = margin(bound.comparison, drawn);
+    value += more;
+    for (int step = 0; step < kSteps; ++step) {
+      const std::optional<double> now = margin(bound.comparison, drawn);
+      if (now == 0.0) return true;
+      if (!now || !lastMargin || *now == *lastMargin) return false;
+      const double next = roundedTo(value - *now * (value - last) / (*now - *lastMargin), field.decimals);
+      if (!(std::abs(next) < kMostMet) || next == value) return false;
+      last = std::exchange(value, next);
+      lastMargin = now;
+    }
+    return false;
+  };
+  if (meets(own, 1) || meets(-own, own > 0 ? -1 : 1)) return drawn;
   return std::nullopt;
 }
 

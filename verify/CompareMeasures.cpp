@@ -96,7 +96,8 @@ void nominal(const ComparedPair& pair, const Measure& a, const Measure& b) {
     const Touch &one = a.nominal[i], &other = b.nominal[i];
     const bool samePoint = near(one.point, other.point, pair.rules.tolerance) ||
                            (b.travels && !a.travels && leadsBeyond(other, one, pair.rules.tolerance));
-    const bool sameWay = near(one.direction, other.direction, 1e-9);
+    constexpr double kSameWay = 1e-6; // of an angle that a control computes with eight digits
+    const bool sameWay = near(one.direction, other.direction, kSameWay);
     if (samePoint && sameWay) continue;
     std::string text =
         samePoint

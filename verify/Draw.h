@@ -32,6 +32,7 @@ struct DrawField {
   double most = std::numeric_limits<double>::infinity(); // of a tool offset: the last that the controls have
   std::optional<double> fixed;                           // by --set or the job: always this
   std::optional<double> usual;                           // what it says of the surfaces of the path
+  bool decides = false;                                  // questions of the cycle's body depend on it
 
   // Of a work offset the G code that the value is: 54 to 59; 0: none of them.
   std::uint32_t systemOf(double value) const {

@@ -27,12 +27,14 @@ public:
     out.measures.clear();
     out.pieces.clear();
     bool any = false;
-    std::size_t next = 0, kept = 0; // measures and pieces of the source that are dealt with
+    std::size_t next = 0, kept = 0;        // measures and pieces of the source that are dealt with
+    std::vector<std::size_t> before = {0}; // how many are left of the first so many measures
     for (const Measure& call : target_.measures) {
       const std::optional<Region> region = isFeature(call) ? regionOf(call, next, kept) : std::nullopt;
       if (!region && next == source_.measures.size()) break;
       if (!region) {
         out.measures.push_back(source_.measures[next++]);
+        before.resize(next + 1, out.measures.size());
         continue;
       }
       any = true;
@@ -48,6 +50,7 @@ public:
       shifts_.push_back({region->end, out.pieces.size()});
       kept = region->end;
       next += region->touches;
+      before.resize(next + 1, out.measures.size());
     }
     if (!any) return std::nullopt;
     out.measures.insert(out.measures.end(), source_.measures.begin() + static_cast<std::ptrdiff_t>(next),
@@ -57,6 +60,9 @@ public:
       mark.pieces = moved(mark.pieces);
     for (IdleMove& idle : out.idle)
       idle.pieces = moved(idle.pieces);
+    for (Deed& deed : out.deeds)
+      deed.measures = deed.measures < before.size() ? before[deed.measures]
+                                                    : deed.measures - (before.size() - 1) + before.back();
     return out;
   }
 

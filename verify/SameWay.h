@@ -5,7 +5,11 @@
 
 namespace dotek::verify {
 
-// The same blocks, as far as they show; not where they lead to.
-bool sameWay(const Record& a, const Record& b);
+// The same blocks, as far as they show; not where they lead to. `sameText`: it is one text that ran, so that
+// places in it can be compared.
+bool sameWay(const Record& a, const Record& b, bool sameText = true);
+
+// Each of its measures has met a surface, and no macro has stopped it.
+bool findsAll(const Record& record);
 
 } // namespace dotek::verify

@@ -126,6 +126,7 @@ Record Stand::run(const sim::Bytecode& code, sim::World& world, const Entry& ent
   world.setOn(entry.probeOn);
   sim::Run run(machine, code, limits_, meaning);
   run.expectMotion();
+  run.setTie(world.tie());
   if (passesOverAbsent_) run.passOverAbsent();
   if (!stores.empty()) run.watchWrites(stores);
   Recorder recorder(machine, world, sets_, length);

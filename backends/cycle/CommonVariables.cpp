@@ -99,21 +99,25 @@ private:
             jump(node.target, i);
             now.reset();
           },
-          [&](const ir::OneOf<ir::Return, ir::Alarm> auto&) {
-            atEnd(*now); // the operator sees what an alarm leaves
+          [&](const ir::Return&) {
+            atEnd(*now, left_);
+            now.reset();
+          },
+          [&](const ir::Alarm&) {
+            atEnd(*now, leftAtAlarm_); // the operator sees it
             now.reset();
           },
           [](const ir::OneOf<ir::Label, ir::Store, ir::Move, ir::Measure, ir::CallCycle, ir::ProbePower,
                              ir::Comment, ir::Assign, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell,
                              ir::Stop, ir::OpaqueBlock, ir::Port, ir::Print> auto&) {});
     }
-    if (now) atEnd(*now);
+    if (now) atEnd(*now, left_);
     return forward;
   }
 
-  void atEnd(const Reaching& now) {
+  void atEnd(const Reaching& now, Setters& left) {
     for (const auto& [number, setters] : now) {
-      left_.insert(setters.begin(), setters.end());
+      left.insert(setters.begin(), setters.end());
       for (const std::size_t one : setters)
         join(one, *setters.rbegin()); // one value, whichever way led here
     }
@@ -152,6 +156,13 @@ private:
     const Setters seen = std::exchange(read_, {});
     for (const std::size_t one : seen)
       read_.insert(root(one));
+    // What an alarm leaves is a result where the end leaves one there; else it is a value on its way.
+    for (const auto& [number, setters] : setters_)
+      if (std::any_of(setters.begin(), setters.end(), [&](std::size_t at) {
+            return left_.contains(at + 1) && !read_.contains(root(at + 1));
+          }))
+        for (const std::size_t at : setters)
+          if (leftAtAlarm_.contains(at + 1)) left_.insert(at + 1);
     for (const auto& [number, setters] : setters_) {
       if (unset_.contains(number)) continue; // the caller has set it: refused where it is read
       for (const std::size_t at : setters) {
@@ -272,6 +283,7 @@ private:
   std::map<std::uint32_t, std::vector<std::size_t>> setters_; // statements, from 0
   std::set<std::uint32_t> unset_;                             // read before the cycle sets them
   Setters left_;                                              // that reach the end
+  Setters leftAtAlarm_;
   std::set<std::size_t> read_;
   std::map<std::pair<std::size_t, std::uint32_t>, std::size_t> readsAt_; // statement and number: a setter
   std::vector<std::size_t> parent_;                                      // setters of one value

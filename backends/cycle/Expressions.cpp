@@ -164,7 +164,7 @@ private:
     }
     case ir::BinaryOp::Direction: {
       // The angle of a vector: its parts in the order of the language.
-      const Printed y = value(binary.left, ir::Kind::Length), x = value(binary.right, ir::Kind::Length);
+      const Printed x = value(binary.left, ir::Kind::Length), y = value(binary.right, ir::Kind::Length);
       if (y.text.empty() || x.text.empty()) return {};
       return {fmt::format("atan({}, {})", y.text, x.text), kFactor};
     }

@@ -197,7 +197,7 @@ private:
       compareRecords(stand_.run(cycle_, inputs, world, now.entry, now.stores), there, ran);
       return ran;
     };
-    addOffParts(now, {0, false}, run, out);
+    addOffParts(now, {.search = 0}, run, out);
   }
 
   void compareRecords(const verify::Record& record, const TargetCase& now, TargetRun& out) const {

@@ -426,14 +426,18 @@ std::string copiedText(State& state, const ir::OpaqueBlock& block, const ir::Ori
   const bool reads = from.decimal == state.control.decimal && from.increment == state.control.increment;
   const bool offset = !same && (writesWorkOffset(state, block) || writesToolOrExtended(state, block));
   std::string text, foreign;
+  bool axis = false;      // it is one beside X, Y and Z
   bool unlisted = false;  // the code that is foreign, by the control of the source
   bool dataInput = false; // it is the code of both, and its words are what may differ
   for (const ir::Word& given : block.words) {
     if (given.address == 'N') continue; // the source's own numbering
     const double* number = given.value == nullptr ? nullptr : ir::constantValue(given.value);
     // Whether the other machine has the axis, and what it moves there, is in no table.
-    if (!same && std::string_view("ABCUVW").find(given.address) != std::string_view::npos && foreign.empty())
+    if (!same && !state.options.sameAxes && foreign.empty() &&
+        std::string_view("ABCUVW").find(given.address) != std::string_view::npos) {
       foreign = std::string(1, given.address) + (number == nullptr ? ".." : numberText(*number));
+      axis = true;
+    }
     if (!same && (given.address == 'G' || given.address == 'M')) {
       const double tenths = number == nullptr ? -1 : std::round(*number * 10);
       const auto* here = tenths < 0 ? nullptr : from.find(given.address, static_cast<std::uint32_t>(tenths));
@@ -469,6 +473,10 @@ std::string copiedText(State& state, const ir::OpaqueBlock& block, const ir::Ori
   }
   if (dataInput) {
     refuseDataInput(state, block, origin.range());
+    return "";
+  }
+  if (axis) {
+    state.refuse<diag::AxisNotKnown>(origin.range(), foreign, state.control.title);
     return "";
   }
   if (!foreign.empty()) {

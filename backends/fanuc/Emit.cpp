@@ -1,5 +1,6 @@
 #include "backends/fanuc/Emit.h"
 
+#include "backends/common/JoinedSets.h"
 #include "backends/common/MovedMacros.h"
 #include "backends/fanuc/OwnCycles.h"
 #include "backends/fanuc/State.h"
@@ -115,7 +116,7 @@ std::optional<std::vector<EmittedLine>> emit(const ir::Cycle& given, const EmitO
                                              std::vector<Argument>* assigned, std::uint32_t* alarms) {
   if (!fits(options, given.range, diagnostics) || !holdsKept(options.macros, options.control, diagnostics))
     return std::nullopt;
-  const ir::Cycle cycle = withTouchCalls(given, options.macros);
+  const ir::Cycle cycle = joinSets(withTouchCalls(given, options.macros), options.macros);
   auto arguments = assignLetters(cycle, options, diagnostics);
   if (!arguments) return std::nullopt;
   if (assigned != nullptr) *assigned = *arguments;
@@ -185,7 +186,7 @@ void reportHosts(State& state) {
 std::optional<BranchBlocks> emitBranch(const ir::Cycle& given, const EmitOptions& options,
                                        const SourceMap& sources, Diagnostics& diagnostics) {
   const BranchOptions& branch = *options.branch;
-  const ir::Cycle cycle = withTouchCalls(given, options.macros);
+  const ir::Cycle cycle = joinSets(withTouchCalls(given, options.macros), options.macros);
   State state(cycle, options, sources, diagnostics, {});
   if (state.macros.needsSkipPosition && !state.control.variables.skip && ir::probes(cycle))
     state.refuse<diag::NoSkipPosition>(cycle.range, "macros of " + state.macros.title, state.control.title);

@@ -60,6 +60,8 @@ struct EmitOptions {
   std::map<std::string, double> fixed; // what --set, --host or the job fixed: named in the header
   // Accents of messages are dropped (--assume plain-messages); else they are refused.
   bool plainMessages = false;
+  // Axes beside X, Y and Z are copied to another control (--assume same-axes); else they are refused.
+  bool sameAxes = false;
   // The source calls another set: calls are written in the order of the signature, not of the source's block.
   bool foreignMacros = false;
   const stdlib::MacroSet* source = nullptr;            // that the source calls; nullptr: none is known

@@ -88,6 +88,7 @@ public:
     ir::fold(lowered.cycle, lowered.fixed);
     fanuc::EmitOptions emit{*inputs.control, *macros, *inputs.sourceControl, 0, {}, {}, {}, {}};
     emit.plainMessages = options_.common.assume.contains("plain-messages");
+    emit.sameAxes = options_.common.assume.contains("same-axes");
     emit.foreignMacros = lowered.macros == nullptr || macros->name != lowered.macros->name;
     emit.source =
         lowered.macros == nullptr ? nullptr : session_.macroSet(lowered.macros->name, &*inputs.sourceControl);

@@ -85,11 +85,12 @@ void FanucVerification::callOtherwise(const TargetCase& now, const verify::Entry
           [&](const verify::Record& source) { return rulesFor(now, source); }, comparesExactly()),
       out);
   if (out.differences.empty() && now.source != nullptr)
-    add(compareOffParts(
-            now, {rulesFor(now, *now.source).overtravel, comparesExactly() && sameMacros(sourceSet_, set_)},
-            [&](const verify::Record& meant, sim::World& world) {
-              return verify::compare(meant, runIn(world, now, entry), rulesFor(now, meant));
-            }),
+    add(compareOffParts(now,
+                        {rulesFor(now, *now.source).overtravel,
+                         comparesExactly() && sameMacros(sourceSet_, set_), takesTies()},
+                        [&](const verify::Record& meant, sim::World& world) {
+                          return verify::compare(meant, runIn(world, now, entry), rulesFor(now, meant));
+                        }),
         out);
   for (const OutputArgument& argument : translation_.arguments)
     if (!now.questions->maySkip(argument.name)) callWithout(argument, now, entry, out);

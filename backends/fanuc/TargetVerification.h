@@ -22,6 +22,7 @@ constexpr std::uint32_t kOwnAlarms = 3000; // of programs
 class FanucVerification final : public Verification {
 public:
   explicit FanucVerification(const VerificationSource& source);
+  bool takesTies() const override { return true; }
   bool meetsLimitsAlike() const override { return comparesExactly() && sourceSet_ == set_; }
   bool prepare() override;
   TargetRun run(const TargetCase& now) override;

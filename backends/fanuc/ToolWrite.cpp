@@ -55,12 +55,7 @@ bool guardTool(State& state, const ir::ExpressionPtr& tool, const ir::Origin& or
   }
   const auto same = [&](const ir::ExpressionPtr& other) { return ir::equal(other, tool); };
   if (std::any_of(state.tools.begin(), state.tools.end(), same)) return true;
-  const std::set<ir::VariableId> ids = variablesOf(tool);
-  // What may be left out is looked at where it is used.
-  const bool mayMiss = std::any_of(ids.begin(), ids.end(), [&](ir::VariableId id) {
-    return state.cycle.variable(id).optional && !state.cycle.variable(id).defaultValue;
-  });
-  if (!mayMiss && knownAtEntry(state, tool))
+  if (knownAtEntry(state, tool))
     state.tools.push_back(tool);
   else
     writeToolAlarm(state, tool, origin);
@@ -73,10 +68,16 @@ void writeToolAlarm(State& state, const ir::ExpressionPtr& tool, const ir::Origi
   origin.reason = "range of the tool offset";
   const std::string text = fmt::format("TOOL OFFSET NOT 1 TO {}", state.control.variables.toolCount);
   const auto last = ir::constant(state.control.variables.toolCount);
-  alarmIf(state, ir::compare(ir::Relation::Less, tool, ir::constant(1)), text, origin);
-  alarmIf(state, ir::compare(ir::Relation::Greater, tool, last), text, origin);
-  alarmIf(state, ir::compare(ir::Relation::NotEqual, tool, ir::unary(ir::UnaryOp::Truncate, tool)), text,
-          origin);
+  // What the caller may leave out is looked at where he gives it.
+  const auto check = [&](ir::ConditionPtr wrong) {
+    for (const ir::VariableId id : variablesOf(tool))
+      if (state.cycle.variable(id).optional && !state.cycle.variable(id).defaultValue)
+        wrong = ir::join(ir::Connective::And, ir::negate(ir::isNull(ir::variable(id))), std::move(wrong));
+    alarmIf(state, wrong, text, origin);
+  };
+  check(ir::compare(ir::Relation::Less, tool, ir::constant(1)));
+  check(ir::compare(ir::Relation::Greater, tool, last));
+  check(ir::compare(ir::Relation::NotEqual, tool, ir::unary(ir::UnaryOp::Truncate, tool)));
   state.releaseHelpers();
 }
 

@@ -45,6 +45,7 @@ public:
     stand_.passOverAbsent();
   }
 
+  bool takesTies() const override { return true; }
   bool meetsLimitsAlike() const override {
     return control_.arithmetic == stdlib::Arithmetic::Decimal8 && sourceSet_ == set_;
   }
@@ -284,7 +285,7 @@ private:
             control_.arithmetic == stdlib::Arithmetic::Decimal8),
         made->id, out);
     const bool exact = meetsLimitsAlike();
-    add(compareOffParts(now, {rulesFor(now, *now.source).overtravel, exact},
+    add(compareOffParts(now, {rulesFor(now, *now.source).overtravel, exact, takesTies()},
                         [&](const verify::Record& meant, sim::World& world) {
                           return verify::compare(meant, runIn(world, *made, now), rulesFor(now, meant));
                         }),

@@ -217,7 +217,7 @@ private:
       if (ran.record) compareRecords(ran, there, off);
       return off;
     };
-    addOffParts(now, {same ? std::nullopt : std::optional(0.0), false}, run, out);
+    addOffParts(now, {same ? std::nullopt : std::optional(0.0), false, true}, run, out);
   }
 
   void compareRecords(const CaseRunner::Performed& ran, const TargetCase& now, TargetRun& out) const {

@@ -202,6 +202,8 @@ std::string opened(const Line& line) {
     return fmt::format("write `repeat {} times`", inner);
   if (head != "for" || ends) return "";
   const size_t last = line.at() + 1;
+  if (found == "in" && line.find(Lexer::KW_TO, last) < line.size())
+    return fmt::format("write `for {} = {}`", line.word(1), line.rest(last));
   if (found == "in" || (found == "," && line.find(Lexer::COMMA, last) < line.size()))
     return fmt::format("a loop counts from a first value to a last one, and goes through no list; write `for "
                        "{} = 1 to 4`",

@@ -86,6 +86,7 @@ std::optional<Lowered> Lowering::run() {
   leaveResults(results_, cycle_.range);
   if (failed_) return std::nullopt;
   warnMixed();
+  warnDeviations();
   resolvePlaces();
   if (failed_) return std::nullopt;
   outline();

@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
+#include <set>
 
 namespace dotek::frontend::cycle {
 namespace {
@@ -97,6 +99,40 @@ public:
 
 private:
   const Known& known_;
+};
+
+// Variables that are a deviation wherever they get a value.
+class Deviations {
+public:
+  explicit Deviations(const std::vector<ir::CycleStatement>& list) {
+    std::set<ir::VariableId> others;
+    for (const ir::CycleStatement& statement : list)
+      if (const auto* assign = std::get_if<ir::Assign>(&statement.node))
+        (contains(assign->value) ? variables_ : others).insert(assign->variable);
+    for (const ir::VariableId id : others)
+      variables_.erase(id);
+  }
+  bool contains(const ir::ExpressionPtr& value) const {
+    if (value == nullptr) return false;
+    if (const auto* result = std::get_if<ir::MeasuredResult>(&value->node))
+      return result->name == ir::ResultName::ErrorX || result->name == ir::ResultName::ErrorY ||
+             result->name == ir::ResultName::ErrorZ || result->name == ir::ResultName::SizeError;
+    if (const auto* use = std::get_if<ir::VariableUse>(&value->node))
+      return variables_.contains(use->variable);
+    if (const auto* one = std::get_if<ir::Unary>(&value->node))
+      return (one->op == ir::UnaryOp::Negate || one->op == ir::UnaryOp::Absolute) && contains(one->operand);
+    const auto* both = std::get_if<ir::Binary>(&value->node);
+    if (both == nullptr) return false;
+    const bool left = contains(both->left), right = contains(both->right);
+    if (both->op == ir::BinaryOp::Add || both->op == ir::BinaryOp::Subtract) return left && right;
+    if (both->op == ir::BinaryOp::Multiply)
+      return (left && ir::constantValue(both->right) != nullptr) ||
+             (right && ir::constantValue(both->left) != nullptr);
+    return both->op == ir::BinaryOp::Divide && left && ir::constantValue(both->right) != nullptr;
+  }
+
+private:
+  std::set<ir::VariableId> variables_;
 };
 
 template <class Visit> void eachComparison(const ir::Condition& condition, const Visit& visit) {
@@ -203,6 +239,30 @@ std::optional<std::size_t> axisOf(const Weights& weights) {
 }
 
 } // namespace
+
+void Lowering::warnDeviations() {
+  const Deviations deviations(cycle_.body);
+  for (const ir::CycleStatement& statement : cycle_.body) {
+    const auto* call = std::get_if<ir::CallCycle>(&statement.node);
+    if (call == nullptr || statement.origin.block != 0) continue;
+    site_ = statement.origin.place;
+    const auto warn = [&](std::string what, const char* takes, std::string repair) {
+      report(makeDiagnostic<diag::DeviationSet>(statement.origin.range(), std::move(what), takes,
+                                                std::move(repair)));
+    };
+    for (const ir::CycleArgument& one : call->arguments) {
+      if (!deviations.contains(one.value)) continue;
+      const std::string axis(1, one.parameter.back());
+      if (one.parameter.starts_with("measured "))
+        warn(axis, "coordinate", fmt::format("`NAME.at becomes {} ..`", axis));
+      else if (one.parameter == ir::toolPartText(ir::ToolPart::Length) ||
+               one.parameter == ir::toolPartText(ir::ToolPart::Radius))
+        warn("the " + one.parameter + " of a tool", "length",
+             fmt::format("`T.{0} + NAME.error`, or set `{0}_wear`", one.parameter));
+    }
+  }
+  site_ = 0;
+}
 
 void Lowering::warnMixed() {
   constexpr std::size_t kMostWork = 4'000'000; // statements times variables

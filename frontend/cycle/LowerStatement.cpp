@@ -60,12 +60,14 @@ void Lowering::comments(const std::vector<Comment>& list) {
       emit(ir::Comment{words}, comment.range);
 }
 
-void Lowering::block(const Block& block) {
+Lowering::Results Lowering::block(const Block& block) {
   const std::size_t before = known_.size();
   for (const Statement& one : block.statements)
     statement(one);
+  Results out(known_.begin() + static_cast<std::ptrdiff_t>(before), known_.end());
   known_.resize(before);
   comments(block.comments);
+  return out;
 }
 
 void Lowering::statement(const Statement& s) {
@@ -354,9 +356,15 @@ void Lowering::choose(const If& choice, SourceRange range) {
   const Probe before = probe_;
   std::optional<Probe> after; // on every path so far
   ++nested_;
-  const auto leave = [&](bool gone) {
+  std::optional<Results> given; // on every path so far
+  const auto leave = [&](const Results& here) {
+    const bool gone = ended();
     if (!gone) after = !after || *after == probe_ ? probe_ : Probe::Either;
     probe_ = before;
+    if (gone) return;
+    if (!given) given = here;
+    std::erase_if(*given,
+                  [&](const auto& one) { return std::find(here.begin(), here.end(), one) == here.end(); });
   };
   bool open = true; // a path leads to the part
   for (const If::Part& part : choice.parts) {
@@ -365,9 +373,7 @@ void Lowering::choose(const If& choice, SourceRange range) {
     if (!open || known == false) continue;
     const ir::LabelId next = label("otherwise", range);
     if (!known) branch(*part.condition, false, next);
-    block(part.body);
-    const bool gone = ended();
-    leave(gone);
+    leave(block(part.body));
     if (known) {
       open = false;
       continue;
@@ -376,10 +382,8 @@ void Lowering::choose(const If& choice, SourceRange range) {
     place(next, range);
   }
   comments(choice.elseComments);
-  if (open) {
-    if (choice.otherwise != nullptr) block(*choice.otherwise);
-    leave(ended());
-  }
+  if (open) leave(choice.otherwise != nullptr ? block(*choice.otherwise) : Results{});
+  if (given) known_.insert(known_.end(), given->begin(), given->end());
   probe_ = after.value_or(before);
   --nested_;
   place(end, range);

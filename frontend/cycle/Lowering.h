@@ -149,7 +149,9 @@ private:
   bool isSimple(const Expression& condition) const;
 
   // ---- LowerStatement.cpp
-  void block(const Block& block);
+  using Results = std::vector<std::pair<std::string, ir::VariableId>>;
+  // The results that got a value in it and in nothing before.
+  Results block(const Block& block);
   void statement(const Statement& statement);
   void comments(const std::vector<Comment>& list);
   void move(const Move& move, SourceRange range);
@@ -162,7 +164,6 @@ private:
   // A cycle by its name that moves nothing.
   ir::CallCycle quiet(std::string_view name) const;
   void setOffset(const SetOffset& set, SourceRange range);
-  using Results = std::vector<std::pair<std::string, ir::VariableId>>;
   void leaveResults(const Results& results, SourceRange range);
   void report(const Report& report, SourceRange range);
   void assign(const Assign& assign, SourceRange range);
@@ -238,6 +239,7 @@ private:
   std::vector<std::array<bool, 3>> shiftedBefore(const std::vector<ir::CycleStatement>& list) const;
   // Warns where a coordinate from before a `set` meets one from after it.
   void warnMixed();
+  void warnDeviations(); // set as coordinates, or as lengths of tools
 
   const File& file_;
   const SourceMap& sources_;

@@ -4,12 +4,14 @@
 #include "frontend/cycle/Parse.h"
 #include "frontend/cycle/Words.h"
 #include "support/Ascii.h"
+#include "support/Decimal.h"
 #include "support/NearestName.h"
 
 #include <CycleParser.h>
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <fmt/format.h>
 #include <string_view>
 
@@ -224,6 +226,15 @@ const ForeignSign* foreignSignOf(std::string_view text) {
 // How a message begins whose fault is the first word of the line, whatever comes after it.
 constexpr std::string_view kNoStatement = "no statement begins with";
 
+// 0: the text ends there.
+char characterAfter(const antlr4::Token& token) {
+  const size_t at = token.getStopIndex() + 1;
+  if (token.getInputStream() == nullptr || at >= token.getInputStream()->size()) return 0;
+  const std::string text =
+      token.getInputStream()->getText({static_cast<ssize_t>(at), static_cast<ssize_t>(at)});
+  return text.empty() ? '\0' : text.front();
+}
+
 // What hands write that know another language; "": none of these. `before`: the token before.
 std::string foreignHabit(const antlr4::Token& offending, const antlr4::Token* before) {
   const std::string text = offending.getText();
@@ -233,7 +244,12 @@ std::string foreignHabit(const antlr4::Token& offending, const antlr4::Token* be
   if (text.starts_with('[') || text.starts_with(']'))
     return "there are no lists; give each value a name of its own, or compute it in the loop";
   if (text.starts_with('&')) return "write `and`";
-  if (text.starts_with('|')) return "write `or`";
+  const bool afterValue =
+      afterNumber || (before != nullptr && (before->getType() == Lexer::NAME || before->getText() == ")"));
+  if (text.starts_with('|'))
+    return afterValue || text.size() > 1 ? "write `or`" : "the size of a value without its sign is `abs(..)`";
+  const char following = text.size() > 1 ? text[1] : characterAfter(offending);
+  if (text.starts_with('#') && !(following >= '0' && following <= '9')) return "a comment begins with `//`";
   if (text.starts_with('#'))
     return "a cycle has no variables of the control; declare `result NAME : length`, and name the variable "
            "when it is converted: `--result NAME=#500`";
@@ -300,6 +316,9 @@ std::string explain(const antlr4::Token& offending, const antlr4::Parser& parser
   }
   if (type == Lexer::NEWLINE || type == antlr4::Token::EOF)
     return fmt::format("the line ends before the statement is complete{}", write);
+  if (type == Lexer::CODE && head.getText() == "parameter" &&
+      std::string_view("TDH").find(text[0]) != std::string_view::npos)
+    return fmt::format("a tool offset is given by its number: write `{}`", text.substr(1));
   if (type == Lexer::CODE && std::string_view("XYZABC").find(text[0]) == std::string_view::npos)
     return fmt::format("`{}` is G code, which no cycle holds{}", text, write);
   if (type == Lexer::CODE)
@@ -313,6 +332,9 @@ std::string explain(const antlr4::Token& offending, const antlr4::Parser& parser
     return fmt::format("names are written small, with `_` between words: `{}`", proposeName(text));
   // `12 cm`: what follows a number is its unit.
   const size_t at = offending.getTokenIndex();
+  if (text == "ms" && before != nullptr && before->getType() == Lexer::NUMBER)
+    return fmt::format("times are in seconds: write `{} s`",
+                       numberText(std::atof(before->getText().c_str()) / 1000));
   if (isForeignUnit(text) && before != nullptr && before->getType() == Lexer::NUMBER)
     return fmt::format("`{}` is no unit of the language; those are mm, in, deg, mm/min, in/min and s", text);
   // A value that has been called like one: `s.error`.

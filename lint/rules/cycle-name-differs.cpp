@@ -118,6 +118,13 @@ void check(const Project& project, Report& report) {
         }
       });
     }
+    // The one name without a folder and the one folder without a branch, where all others fit.
+    std::vector<std::string> nameless, left;
+    for (const auto& [name, routines] : testing)
+      if (!folders.contains(name)) nameless.push_back(name);
+    for (const std::string& folder : folders)
+      if (!testing.contains(folder)) left.push_back(folder);
+    const bool onePair = testing.size() > 2 && nameless.size() == 1 && left.size() == 1;
     for (const Test& test : tests) {
       const compost::Literal& id = test.word->arguments.front();
       const std::set<std::string>& beside = testedIn[test.routine];
@@ -144,7 +151,9 @@ void check(const Project& project, Report& report) {
         const bool free = same || inItsPlace || alone ||
                           compost::printingRoutines(*prog, project.compostKeywords, folder).empty();
         const bool near = misspelt(id.text, folder) || (listsFolders && otherLetter(id.text, folder)) ||
-                          (inItsPlace && listsFolders && misspeltInList(id.text, folder));
+                          (inItsPlace && listsFolders && misspeltInList(id.text, folder)) ||
+                          (onePair && left.front() == folder &&
+                           nameDistance(gibbs::foldCase(id.text), gibbs::foldCase(folder), 1) <= 1);
         if (!free || !near) continue;
         report
             .at(id.range,

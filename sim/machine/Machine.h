@@ -311,6 +311,7 @@ public:
     Pressed, // it began in contact
   };
   Skip lastSkip() const { return lastSkip_; }
+  bool hasTouched() const { return touched_; } // a skip move, or a macro's, has met something
   // A skip move stops so far beyond the contact, mm, as reads of the present position see it until the next
   // move: axes brake, and #5061 alone holds where the signal came. Moves are not affected.
   void stopBeyond(double distance) { stopsBeyond_ = distance; }
@@ -507,6 +508,7 @@ private:
   double pmcAddress_ = -1;
   Probe probe_ = Probe::NotSwitched;
   Skip lastSkip_ = Skip::None;
+  bool touched_ = false;
   double stopsBeyond_ = 0;
   Position beyond_{}; // of the last skip move
   bool skipPositions_ = false;

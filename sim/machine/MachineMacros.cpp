@@ -46,6 +46,7 @@ std::optional<bool> Machine::probeTo(const Position& end, bool positions, std::s
       work_[i] = snap(skip.from[i] + (skip.to[i] - skip.from[i]) * *share);
   }
   lastSkip_ = contact ? Skip::Touched : Skip::Missed;
+  touched_ = touched_ || contact;
   beyond_ = {};
   skipped_ = skippedTurned_ = work_; // macros by their meaning do not run under G68
   if (watcher_ != nullptr) tellMotion(MotionKind::Skip, changed(skip.from, work_));

@@ -344,6 +344,7 @@ bool Machine::skipMove(const NcWords& w) {
   const std::optional<double> share = skip_->contact(skip);
   constexpr double kPressed = 1e-9; // share of a move within which the contact is there from the start
   lastSkip_ = !share ? Skip::Missed : *share <= kPressed ? Skip::Pressed : Skip::Touched;
+  touched_ = touched_ || share;
   if (share && *share >= 0 && *share <= 1) {
     for (std::size_t i = 0; i < kAxes; ++i)
       work_[i] = snap(skip.from[i] + (end[i] - skip.from[i]) * *share);

@@ -47,16 +47,17 @@ bool same(double a, double b) {
   return isNull(a) ? isNull(b) : a == b;
 }
 
-bool test(ir::Relation relation, double a, double b) {
+// `tie`: two numbers that lie no farther apart are equal, but for Same and Equal and their opposites.
+bool test(ir::Relation relation, double a, double b, double tie) {
   switch (relation) {
   case ir::Relation::Same: return same(a, b);
   case ir::Relation::Different: return !same(a, b);
   case ir::Relation::Equal: return nullAsZero(a) == nullAsZero(b);
   case ir::Relation::NotEqual: return nullAsZero(a) != nullAsZero(b);
-  case ir::Relation::Less: return nullAsZero(a) < nullAsZero(b);
-  case ir::Relation::Greater: return nullAsZero(a) > nullAsZero(b);
-  case ir::Relation::LessEqual: return nullAsZero(a) <= nullAsZero(b);
-  case ir::Relation::GreaterEqual: return nullAsZero(a) >= nullAsZero(b);
+  case ir::Relation::Less: return nullAsZero(a) < nullAsZero(b) - tie;
+  case ir::Relation::Greater: return nullAsZero(a) > nullAsZero(b) + tie;
+  case ir::Relation::LessEqual: return nullAsZero(a) <= nullAsZero(b) + tie;
+  case ir::Relation::GreaterEqual: return nullAsZero(a) >= nullAsZero(b) - tie;
   }
   return false;
 }
@@ -200,7 +201,7 @@ void Run::run() {
   for (bool goesOn = true; goesOn;) {
     followsMisses_ = followsMisses_ || (misses_ != nullptr && misses_->hasMisses());
     if (machine_.hasUnknown() || !unset_.empty() || followsMisses_ || !measured_.empty() || trail_ ||
-        !writes_.empty())
+        !writes_.empty() || (tie_ > 0 && machine_.hasTouched()))
       goesOn = decimal ? execute<true, true>() : execute<false, true>();
     else
       goesOn = decimal ? execute<true, false>() : execute<false, false>();
@@ -280,6 +281,7 @@ template <bool kDecimal8, bool kWatched> bool Run::execute() {
   double* const cells = cells_;
   const Instruction* at = all + place_;
   std::uint64_t fuel = fuel_;
+  const double tie = kWatched && machine_.hasTouched() ? tie_ : 0.0;
   const auto leave = [&] {
     place_ = static_cast<std::uint32_t>(at - all);
     machine_.frame().line = code_.lines[place_];
@@ -432,10 +434,10 @@ template <bool kDecimal8, bool kWatched> bool Run::execute() {
     return spend(0);                                                                                         \
   }                                                                                                          \
   break
-    case Op::JumpLess: DOTEK_JUMP(number(at->a) < number(at->b));
-    case Op::JumpGreater: DOTEK_JUMP(number(at->a) > number(at->b));
-    case Op::JumpLessEqual: DOTEK_JUMP(number(at->a) <= number(at->b));
-    case Op::JumpGreaterEqual: DOTEK_JUMP(number(at->a) >= number(at->b));
+    case Op::JumpLess: DOTEK_JUMP(number(at->a) < number(at->b) - tie);
+    case Op::JumpGreater: DOTEK_JUMP(number(at->a) > number(at->b) + tie);
+    case Op::JumpLessEqual: DOTEK_JUMP(number(at->a) <= number(at->b) + tie);
+    case Op::JumpGreaterEqual: DOTEK_JUMP(number(at->a) >= number(at->b) - tie);
     case Op::JumpSame: DOTEK_JUMP(same(cells[at->a], cells[at->b]));
     case Op::JumpDifferent: DOTEK_JUMP(!same(cells[at->a], cells[at->b]));
     case Op::JumpTrue: DOTEK_JUMP(cells[at->a] != 0);
@@ -456,7 +458,7 @@ template <bool kDecimal8, bool kWatched> bool Run::execute() {
     case Op::Test:
       cells[at->c] =
           (at->detail == kIsNull ? isNull(cells[at->a])
-                                 : test(static_cast<ir::Relation>(at->detail), cells[at->a], cells[at->b]))
+                                 : test(static_cast<ir::Relation>(at->detail), cells[at->a], cells[at->b], tie))
               ? 1
               : 0;
       break;

@@ -66,6 +66,9 @@ public:
   // Before the run: values are followed that come from where a skip move
   // has ended that met nothing. The watcher outlives the run.
   void watchMisses(MissWatcher* watcher);
+  // Before the run: once the probe has touched, numbers that lie no farther apart are equal where `<`, `>`,
+  // `<=` and `>=` compare them, as if what was measured fell on a limit exactly. Such a run takes longer, too.
+  void setTie(double tie) { tie_ = tie; }
   // Before the run: M98 of a program that is not there does nothing, and the watcher hears of it; else it is
   // the control's alarm.
   void passOverAbsent() { passesOverAbsent_ = true; }
@@ -269,6 +272,7 @@ private:
     std::uint32_t place = 0; // of the instruction
     double value = 0;        // known once the next one comes
   };
+  double tie_ = 0;
   std::vector<std::uint32_t> watchedWrites_; // by cell: the index in writes_ and 1; 0: not watched
   std::vector<std::vector<Write>> writes_;
 };

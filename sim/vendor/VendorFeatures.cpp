@@ -1,6 +1,7 @@
 // What calls do that are statements of the cycle language: a protected move, touches of one surface. Of all
 // others a cycle of the library says it (VendorDefinition.cpp).
 #include "sim/vendor/VendorRun.h"
+#include "stdlib/SearchTravel.h"
 
 #include <cmath>
 
@@ -78,7 +79,7 @@ bool VendorRun::surface() {
     const Direction direction = directionOf(axis, way > 0 ? 1 : -1);
     Position centre;
     double ball = 0;
-    if (!touch(direction, std::abs(way), centre, travel) || !radius(direction, ball)) return false;
+    if (!touch(direction, std::abs(way), centre, stdlib::travelIsSearch(signature_, *target)) || !radius(direction, ball)) return false;
     if (missed_) return true;
     foundPosition(axis, centre[i] + direction[i] * ball, start_[i] + way);
   }

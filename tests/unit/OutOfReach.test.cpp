@@ -147,7 +147,13 @@ TEST_CASE("an axis that the target lacks is refused at its line") {
     CHECK(codesAt(one.convert("fanuc", block), Severity::Note, "post.txt", kLine) == Codes{"opaque-block"});
     CHECK(codesAt(one.convert("fusion", block), Severity::Note, "post.txt", kLine) == Codes{"opaque-block"});
     CHECK(codesAt(one.convert("fanuc", block, [](auto& options) { options.control = "fanuc-31i-b"; }),
-                  Severity::Error, "post.txt", kLine) == Codes{"opaque-block-refused"});
+                  Severity::Error, "post.txt", kLine) == Codes{"axis-not-known"});
+    CHECK(codesAt(one.convert("fanuc", block,
+                              [](auto& options) {
+                                options.control = "fanuc-31i-b";
+                                options.common.assume = {"same-axes"};
+                              }),
+                  Severity::Note, "post.txt", kLine) == Codes{"opaque-block"});
   }
 }
 
