@@ -27,10 +27,9 @@ void addRunPost(CLI::App& app, Raw& raw) {
   run->add_option("--control", raw.control, "control that the program is checked for")
       ->type_name("NAME")
       ->needs(check);
-  addPart(*run, raw, "part on which --check runs the program");
+  addPart(*run, raw, "part on which --check runs the program; without --machine with the probe of the job");
   for (const char* const flag : {"--part", "--machine"})
     run->get_option(flag)->needs(check);
-  run->get_option("--part")->needs(run->get_option("--machine")); // whose probe touches it
   run->add_option("-o", raw.output, "write the program to a file")->type_name("OUT");
   run->add_option("--map", raw.mapFile, "write which lines of the post wrote each line of the program (JSON)")
       ->type_name("FILE");

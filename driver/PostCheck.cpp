@@ -19,11 +19,16 @@ namespace fs = std::filesystem;
 // Of the lines that wrote a block, innermost first, the one that a person looks for: not the post's own
 // writeBlock.
 const posts::PostPlace* writerOf(const posts::PostStack& stack) {
-  const auto at = std::find_if(stack.begin(), stack.end(), [](const posts::PostPlace& place) {
-    return !place.function.starts_with("write");
-  });
-  return at != stack.end() ? &*at : stack.empty() ? nullptr : &stack.back();
+  const posts::PostPlace* out = nullptr;
+  for (const posts::PostPlace& place : stack) {
+    if (place.line == 0) continue; // an entry whose own call is too far out
+    out = &place;
+    if (!place.function.starts_with("write")) break;
+  }
+  return out;
 }
+
+constexpr double kBareLength = 100; // mm
 
 class PostCheck {
 public:
@@ -60,6 +65,7 @@ public:
     simOptions.control = options_.control;
     simOptions.part = options_.part;
     simOptions.machine = options_.machine;
+    if (!options_.machine) useProbe(simOptions.setup);
     simOptions.trace = [](std::string_view) {}; // the table of what was measured is made with it
     Outcome ran = sim(simOptions);
     out.fails = out.fails || ran.status != 0;
@@ -71,6 +77,17 @@ public:
   }
 
 private:
+  // Without a machine's file the job says which ball touches the part; its length is in its own offset, and
+  // work offsets are where the part is.
+  void useProbe(stdlib::Setup& setup) const {
+    if (!result_.probe) return; // `sim` says what is missing
+    setup.tool = result_.probe->tool;
+    setup.ballDiameter = result_.probe->diameter;
+    setup.length = kBareLength;
+    for (const std::uint32_t offset : result_.probe->offsets)
+      if (offset >= 1 && offset <= 6) setup.zeros.push_back({offset - 1, true, {}});
+  }
+
   // Findings of a command with sources of its own.
   void take(Outcome from) {
     std::map<FileId, FileId> files;

@@ -2,6 +2,7 @@
 
 #include "frontend/fusion/Lower.h"
 #include "frontend/fusion/Parse.h"
+#include "frontend/fusion/Units.h"
 #include "posts/Json.h"
 #include "posts/KernelFiles.h"
 #include "project/Inputs.h"
@@ -30,10 +31,11 @@ std::string kernelText() {
   return out;
 }
 
-std::string_view es6Text() {
-  for (const KernelFile& file : kernelFiles())
-    if (file.name == "es6.js") return file.text;
-  return {};
+std::string es6Text() {
+  std::string out;
+  for (const KernelFile& file : kernelFiles()) // in the order of their names
+    if (file.name.starts_with("es6")) out += file.text;
+  return out;
 }
 
 std::map<std::string, double> settingsOf(const stdlib::DataFiles& data) {
@@ -76,11 +78,24 @@ PostStack stackOf(const std::vector<std::string>& lines, std::size_t from) {
   return out;
 }
 
+PostProbe probeOf(const std::vector<std::string>& lines) {
+  PostProbe out;
+  const auto read = [&](std::size_t i, auto& value) {
+    if (i < lines.size()) std::from_chars(lines[i].data(), lines[i].data() + lines[i].size(), value);
+  };
+  read(0, out.tool);
+  read(1, out.diameter);
+  for (std::size_t i = 2; i < lines.size(); ++i)
+    read(i, out.offsets.emplace_back());
+  return out;
+}
+
 PostFault::Kind kindOf(std::string_view name) {
   if (name == "error") return PostFault::Kind::Refusal;
   if (name == "expand") return PostFault::Kind::Expand;
   if (name == "output") return PostFault::Kind::Output;
   if (name == "property") return PostFault::Kind::Property;
+  if (name == "value") return PostFault::Kind::PropertyValue;
   return PostFault::Kind::Thrown;
 }
 
@@ -143,21 +158,44 @@ std::optional<std::string> PostRunner::lowered(FileId file) {
   for (const fusion::Unread& one : tree.unread)
     diagnostics.report<diag::PostUnread>(one.range, one.message);
   if (!tree.unread.empty()) return std::nullopt;
-  fusion::Lowered out = fusion::lower(tree, fusion::resolve(tree));
+  const fusion::Scopes scopes = fusion::resolve(tree);
+  const std::vector<fusion::Unread> twice = fusion::declaredTwice(tree, scopes);
+  for (const fusion::Unread& one : twice)
+    diagnostics.report<diag::PostUnread>(one.range, one.message);
+  if (!twice.empty()) return std::nullopt;
+  if (file == file_) {
+    functions_ = fusion::givenFunctions(tree);
+    for (fusion::GivenFunction& one : functions_) {
+      one.begin = session_.sources().file(file).lineOf(one.begin);
+      one.end = session_.sources().file(file).lineOf(one.end);
+    }
+  }
+  fusion::Lowered out = fusion::lower(tree, scopes);
   for (const fusion::Unread& one : out.refused)
     diagnostics.report<diag::PostConstruct>(one.range, one.message);
   if (!out.refused.empty()) return std::nullopt;
   const auto settings = settingsOf(session_.data());
-  for (const fusion::Node& node : tree.nodes) {
-    if (!node.is(fusion::Kind::Binary) || node.text.find('=') == std::string_view::npos) continue;
-    const fusion::Node* const a = fusion::bare(node.kid(0));
-    const fusion::Node* const b = fusion::bare(node.kid(1));
-    if ((a->isName("unit") && b->is(fusion::Kind::Number)) ||
-        (b->isName("unit") && a->is(fusion::Kind::Number)))
-      diagnostics.report<diag::PostUnitCompared>(tree.range(node), jsonNumber(settings.at("mm")),
-                                                 jsonNumber(settings.at("in")));
-  }
+  for (const fusion::Node* one : fusion::unitsAsNumbers(tree, scopes))
+    diagnostics.report<diag::PostUnitCompared>(tree.range(*one), jsonNumber(settings.at("mm")),
+                                               jsonNumber(settings.at("in")));
   return toUtf8(out.text, session_.sources().file(file).encoding());
+}
+
+// The engine calls a function without a name `[anon]`; a post knows it by what it was given to.
+void PostRunner::nameFunctions(PostStack& stack) const {
+  for (PostPlace& place : stack) {
+    if (place.function != "[anon]") continue;
+    const fusion::GivenFunction* inner = nullptr;
+    bool several = false;
+    for (const fusion::GivenFunction& one : functions_) {
+      if (place.line < one.begin || place.line > one.end) continue;
+      const bool same = inner != nullptr && inner->begin == one.begin && inner->end == one.end;
+      if (inner != nullptr && !same && one.end - one.begin > inner->end - inner->begin) continue;
+      several = same;
+      inner = &one;
+    }
+    if (inner != nullptr && !several && !inner->name.empty()) place.function = inner->name;
+  }
 }
 
 // Files that the text names in include("..").
@@ -232,10 +270,10 @@ bool PostRunner::load(const std::string& path, bool inch) {
   std::map<std::string, std::string> includes;
   if (!include(path, includes, 0)) return false;
   const std::string kernel = kernelText();
+  const std::string es6 = es6Text();
   const std::string setupText = setup(inch, includes);
   // The kernel's value is what runs.
-  const auto fault =
-      runner_.load({{"kernel", kernel}, {"es6", es6Text()}, {"setup", setupText}, {"post", *text}});
+  const auto fault = runner_.load({{"kernel", kernel}, {"es6", es6}, {"setup", setupText}, {"post", *text}});
   if (!fault) return true;
   PostResult result;
   result.fault = faultOf(*fault);
@@ -263,6 +301,7 @@ PostResult PostRunner::run(const std::string& job) {
     case 'L': out.log.emplace_back(rest); break;
     case 'F': out.files[lines.front()] = rest.substr(std::min(lines.front().size() + 1, rest.size())); break;
     case 'W': out.warnings.push_back({lines.front(), stackOf(lines, 1)}); break;
+    case 'T': out.probe = probeOf(lines); break;
     case 'E':
       if (lines.size() >= 5)
         out.fault = PostFault{kindOf(lines[0]), lines[1], lines[2], lines[3], lines[4], stackOf(lines, 5)};
@@ -270,7 +309,14 @@ PostResult PostRunner::run(const std::string& job) {
     default: break;
     }
   }
-  if (out.fault) nameAbsent(*out.fault, session_.data());
+  for (PostStack& stack : out.lines)
+    nameFunctions(stack);
+  for (PostWarning& one : out.warnings)
+    nameFunctions(one.stack);
+  if (out.fault) {
+    nameFunctions(out.fault->stack);
+    nameAbsent(*out.fault, session_.data());
+  }
   return out;
 }
 
@@ -315,6 +361,10 @@ void PostRunner::report(const PostResult& result) {
       out = &diagnostics.report<diag::PostStopped>(
           where, fmt::format("it needs more than {} MB of memory; `--limit script-memory=MB` gives it more{}",
                              options_.memory, circumstances(fault)));
+    else if (fault.text.ends_with(": callstack limit") || fault.text.ends_with(": C stack depth limit"))
+      out = &diagnostics.report<diag::PostStopped>(
+          where,
+          "its calls are nested without end, or deeper than the engine has room for" + circumstances(fault));
     else
       out = &diagnostics.report<diag::PostThrew>(where, text);
     break;
@@ -328,6 +378,9 @@ void PostRunner::report(const PostResult& result) {
                                                   near.empty() ? "" : "; did you mean `" + near + "`?");
     break;
   }
+  case PostFault::Kind::PropertyValue:
+    out = &diagnostics.report<diag::PostPropertyValue>({}, fault.text);
+    break;
   case PostFault::Kind::Output:
     out = &diagnostics.report<diag::PostStopped>(
         where, fmt::format("it wrote more than {} bytes; `--limit script-output=N` raises the limit",

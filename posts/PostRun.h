@@ -2,6 +2,7 @@
 // (script/Script.h).
 #pragma once
 
+#include "frontend/fusion/Declared.h"
 #include "posts/PostJob.h"
 #include "project/Session.h"
 #include "script/Script.h"
@@ -23,12 +24,13 @@ using PostStack = std::vector<PostPlace>; // innermost first
 // What ended a run.
 struct PostFault {
   enum class Kind : std::uint8_t {
-    Refusal,  // the post calls error(..)
-    Thrown,   // JavaScript
-    Expand,   // it leaves a cycle to the engine, and nobody knows its moves
-    Property, // the job gives one that the post does not have
-    Output,   // more text than allowed
-    Stopped,  // a limit, or the process ended
+    Refusal,       // the post calls error(..)
+    Thrown,        // JavaScript
+    Expand,        // it leaves a cycle to the engine, and nobody knows its moves
+    Property,      // the job gives one that the post does not have
+    PropertyValue, // or a value that it cannot have
+    Output,        // more text than allowed
+    Stopped,       // a limit, or the process ended
     NoWorker
   };
   Kind kind = Kind::Thrown;
@@ -44,12 +46,20 @@ struct PostWarning {
   PostStack stack;
 };
 
+// What a job says of the probe that its program runs with.
+struct PostProbe {
+  std::uint32_t tool = 0;
+  double diameter = 0;                // mm
+  std::vector<std::uint32_t> offsets; // work offsets of the job: 1 for G54
+};
+
 struct PostResult {
   std::string nc;                           // line ends LF; up to the fault where there is one
   std::vector<PostStack> lines;             // of each line of `nc`, where the job asks for it
   std::map<std::string, std::string> files; // what the post redirects, by name
   std::vector<PostWarning> warnings;
   std::vector<std::string> log;
+  std::optional<PostProbe> probe;
   std::optional<PostFault> fault;
 };
 
@@ -80,12 +90,14 @@ public:
 private:
   bool include(const std::string& path, std::map<std::string, std::string>& into, int depth);
   std::optional<std::string> lowered(FileId file);
+  void nameFunctions(PostStack& stack) const;
   std::string setup(bool inch, const std::map<std::string, std::string>& includes) const;
 
   project::Session& session_;
   script::Options options_;
   script::Runner runner_;
   FileId file_ = kNoFile;
+  std::vector<frontend::fusion::GivenFunction> functions_; // of that file, begin and end as lines
 };
 
 } // namespace dotek::posts

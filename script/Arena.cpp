@@ -93,12 +93,14 @@ void* Arena::resize(void* piece, std::size_t size) {
 void Arena::save() {
   saved_.assign(base_, state_.used);
   savedState_ = state_;
+  savedThrew_ = threw;
   ranOut_ = false;
 }
 
 void Arena::restore() {
   std::memcpy(base_, saved_.data(), saved_.size());
   state_ = savedState_;
+  threw = savedThrew_;
   ranOut_ = false;
 }
 

@@ -23,6 +23,9 @@ public:
   void* resize(void* piece, std::size_t size);
   void give(void* piece);
   bool ranOut() const { return ranOut_; } // since save() or restore()
+  // What the engine threw for want of memory or of room for calls, whether or not a script caught it;
+  // nullptr.
+  const char* threw = nullptr;
 
   void save();
   void restore(); // what save() saw
@@ -41,6 +44,7 @@ private:
   State state_, savedState_;
   std::string saved_;
   bool ranOut_ = false;
+  const char* savedThrew_ = nullptr;
 };
 
 } // namespace dotek::script

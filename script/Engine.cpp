@@ -42,9 +42,42 @@ duk_ret_t evaluate(duk_context* heap, void* data) {
   return 1;
 }
 
-// No host of scripts has the engine's own object: its threads and finalizers.
+Arena& arenaOf(duk_context* heap) {
+  duk_memory_functions functions;
+  duk_get_memory_functions(heap, &functions);
+  return *static_cast<Arena*>(functions.udata);
+}
+
+// Called for each error that is made: a script may catch those of the engine's bounds, too.
+duk_ret_t noteBound(duk_context* heap) {
+  if (duk_is_error(heap, 0) != 0 && duk_get_prop_string(heap, 0, "message") != 0) {
+    const char* const text = duk_get_string(heap, -1);
+    const std::string_view message = text == nullptr ? "" : text;
+    Arena& arena = arenaOf(heap);
+    if (message == "alloc failed" && arena.ranOut()) arena.threw = "alloc failed";
+    if (message == "callstack limit" || message == "C stack depth limit") arena.threw = "callstack limit";
+  }
+  duk_set_top(heap, 1);
+  return 1;
+}
+
+duk_ret_t thrownBound(duk_context* heap) {
+  const char* const threw = arenaOf(heap).threw;
+  if (threw == nullptr) return 0;
+  duk_push_string(heap, threw);
+  return 1;
+}
+
+// No host of scripts has the engine's own object: its threads and finalizers. One may ask which bound was
+// met.
 duk_ret_t hideEngine(duk_context* heap, void* /*data*/) {
   duk_push_global_object(heap);
+  duk_get_prop_string(heap, -1, "Duktape");
+  duk_push_c_function(heap, noteBound, 1);
+  duk_put_prop_string(heap, -2, "errCreate");
+  duk_pop(heap);
+  duk_push_c_function(heap, thrownBound, 0);
+  duk_put_prop_string(heap, -2, "dotekBound");
   duk_del_prop_string(heap, -1, "Duktape");
   return 1;
 }

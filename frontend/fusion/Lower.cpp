@@ -54,6 +54,9 @@ void Lowering::rename() {
     if (symbol.kind != Symbol::Kind::Global) of[{symbol.scope->function, symbol.name}].insert(&symbol);
   }
   for (const Use& use : scopes_.uses) {
+    if (use.symbol->kind == Symbol::Kind::Const && use.name != use.symbol->declaration &&
+        (use.kind == Use::Kind::Write || use.kind == Use::Kind::ReadWrite))
+      fixed_.insert(use.name);
     const Scope* const home = use.symbol->scope->function;
     for (const Scope* at = use.scope->function; at != home && at->parent != nullptr;
          at = at->parent->function)
@@ -133,7 +136,7 @@ bool Lowering::changes(const Node& node) const {
   case Kind::Catch: return node.kids[0] == nullptr || !node.kids[0]->is(Kind::Name);
   case Kind::Name: {
     const Symbol* const symbol = scopes_.symbolOf(&node);
-    return symbol != nullptr && renamed_.contains(symbol);
+    return fixed_.contains(&node) || (symbol != nullptr && renamed_.contains(symbol));
   }
   case Kind::Binary: return node.text == "?\?" || node.text == "**";
   case Kind::Assign:
@@ -235,6 +238,7 @@ std::string Lowering::changed(const Node& node) {
   case Kind::Assign: return assign(node);
   case Kind::Class: return classText(node);
   case Kind::Name: {
+    if (fixed_.contains(&node)) return fmt::format("dotekEs6.constant(\"{}\").value", node.text);
     const auto at = renamed_.find(scopes_.symbolOf(&node));
     return at == renamed_.end() ? std::string(node.text) : at->second;
   }

@@ -216,7 +216,7 @@ std::string Lowering::classText(const Node& node) {
     if (&one == constructor)
       out += "function " + name + function;
     else if (one.text.empty())
-      out += place + member(*one.kids[0]) + " = function " + function + ";";
+      out += fmt::format("dotekEs6.method({}, {}, function {});", place, keyText(*one.kids[0]), function);
     else
       out += fmt::format("dotekEs6.accessor({}, {}, \"{}\", function {});", place, keyText(*one.kids[0]),
                          one.text, function);

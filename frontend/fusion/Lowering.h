@@ -93,6 +93,7 @@ private:
   Lowered out_;
   std::unordered_set<const Node*> changes_;
   std::unordered_map<const Symbol*, std::string> renamed_;
+  std::unordered_set<const Node*> fixed_;                    // names of a const that something is assigned to
   std::set<std::string, std::less<>> names_;                 // all of the script
   std::vector<std::vector<std::string>> temporaries_ = {{}}; // of each function that is being written
   std::vector<std::string> supers_;

@@ -1,17 +1,14 @@
+#include "frontend/fusion/Units.h"
 #include "lint/Posts.h"
 
 namespace dotek::lint::rule {
 namespace {
 
 void check(const Project& project, Report& report) {
-  forEachNode(project, fusion::Kind::Binary, [&](const PostFile& post, const fusion::Node& node) {
-    if (node.text != "==" && node.text != "!=" && node.text != "===" && node.text != "!==") return;
-    const fusion::Node* const left = fusion::bare(node.kids[0]);
-    const fusion::Node* const right = fusion::bare(node.kids[1]);
-    if ((left->isName("unit") && right->is(fusion::Kind::Number)) ||
-        (right->isName("unit") && left->is(fusion::Kind::Number)))
-      report.at(post.tree.range(node),
-                "`unit` is compared with a number: the values of MM and IN are documented nowhere");
+  forEachPost(project, [&](const PostFile& post) {
+    for (const fusion::Node* one : fusion::unitsAsNumbers(post.tree, post.scopes))
+      report.at(post.tree.range(*one), "`unit` is compared with a number or taken for one: the values of MM "
+                                       "and IN are documented nowhere");
   });
 }
 

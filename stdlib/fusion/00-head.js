@@ -7,6 +7,10 @@ var settings = {};
 var values = {}; // of constants, by name
 var state; // of one run
 
+// Which bound of the engine was met, if one was: of an engine that tells.
+var boundOf = global.dotekBound || function () { return undefined; };
+delete global.dotekBound;
+
 function sourceError(text) {
   return new Error(text);
 }
@@ -30,7 +34,13 @@ function entry(name) {
 function callEntry(name, parameters) {
   var of = entry(name);
   if (of !== undefined) {
-    of.apply(global, parameters || []);
+    var outer = state.entry;
+    state.entry = outer === undefined ? name : outer;
+    try {
+      of.apply(global, parameters || []);
+    } finally {
+      state.entry = outer;
+    }
   }
   return of !== undefined;
 }

@@ -32,18 +32,17 @@ function placesOf(format) {
 }
 
 function scaledOf(format, value) {
-  var scaled = settings["offset-after-scale"] ? value * format.scale + format.offset
-    : (value + format.offset) * format.scale;
-  if (format.cyclicLimit > 0) {
-    scaled = scaled % format.cyclicLimit;
-    if (format.cyclicSign > 0 && scaled < 0) {
-      scaled += format.cyclicLimit;
+  var of = value;
+  if (format.cyclicLimit > 0) { // in the unit of what is given: posts write 2 * Math.PI beside `scale: DEG`
+    of = of % format.cyclicLimit;
+    if (format.cyclicSign > 0 && of < 0) {
+      of += format.cyclicLimit;
     }
-    if (format.cyclicSign < 0 && scaled > 0) {
-      scaled -= format.cyclicLimit;
+    if (format.cyclicSign < 0 && of > 0) {
+      of -= format.cyclicLimit;
     }
   }
-  return scaled;
+  return settings["offset-after-scale"] ? of * format.scale + format.offset : (of + format.offset) * format.scale;
 }
 
 // How often the last decimal place is in the value, half away from zero; never -0.
@@ -100,9 +99,9 @@ Format.prototype.format = function (given) {
 Format.prototype.getResultingValue = function (value) {
   return Number(unitsOf(this, numberOf(value, "getResultingValue")) + "e-" + placesOf(this));
 };
-// What was given less what is printed.
+// What was given less what is printed, without what the subtraction adds.
 Format.prototype.getError = function (value) {
-  return scaledOf(this, value) - this.getResultingValue(value);
+  return Number((scaledOf(this, value) - this.getResultingValue(value)).toFixed(12));
 };
 Format.prototype.isSignificant = function (value) {
   return unitsOf(this, numberOf(value, "isSignificant")) !== 0;

@@ -65,6 +65,10 @@ Variable.prototype.format = function (given, reference) {
   if (typeof this.onchange === "function") {
     this.onchange(value);
   }
+  if (this.cyclicLimit > 0 || this.type === values.TYPE_DIRECTIONAL) {
+    unproven(this.cyclicLimit > 0 ? "cyclicLimit of a variable: the value is printed as it is given"
+      : "TYPE_DIRECTIONAL: a value below the last one is printed with a minus");
+  }
   if (this.type === values.TYPE_DIRECTIONAL && before !== undefined && value < before) {
     return wordOf(this, -Math.abs(value));
   }

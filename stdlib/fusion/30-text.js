@@ -31,6 +31,15 @@ function placesOfStack(stack) {
       out.push({name: match[1].replace(/^Object\./, ""), source: match[2], line: Number(match[3])});
     }
   });
+  // The outermost is the entry, whatever its function is called; of a deep stack the engine keeps only the inner calls.
+  var called = state === undefined ? undefined : state.entry;
+  if (called !== undefined && out.length > 0 && out[out.length - 1].name !== called) {
+    if (out[out.length - 1].name === "[anon]") {
+      out[out.length - 1].name = called;
+    } else {
+      out.push({name: called, source: "post", line: 0});
+    }
+  }
   return out;
 }
 
@@ -39,7 +48,7 @@ function begin(job) {
     separator: " ", eol: "\n", warnings: [], log: [], told: {}, notes: {}, handlers: [],
     position: undefined, direction: undefined, rotation: undefined, translation: undefined, section: undefined,
     record: undefined, parameters: {}, cyclePoint: 0, cyclePoints: [], expanding: false, skip: false, motion: undefined,
-    synchronized: false, buffered: {}};
+    synchronized: false, buffered: {}, entry: undefined};
 }
 
 // Lines of a buffer and who wrote them, by their text: who writes the buffer out is not their author.

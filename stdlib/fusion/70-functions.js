@@ -462,9 +462,9 @@ give({
     if (command === values.COMMAND_COMMENT || command === values.COMMAND_DISPLAY_MESSAGE) {
       callEntry("onComment", [value]);
     } else if (command === values.COMMAND_PASS_THROUGH) {
-      callEntry("onPassThrough", [value]);
+      handOn("onPassThrough", [value]);
     } else {
-      callEntry("onCommand", [command]);
+      handOn("onCommand", [command]);
     }
   },
   skipRemainingSection: function () { state.skip = true; },

@@ -33,7 +33,19 @@ function command(which) {
   } else if (which === values.COMMAND_DEACTIVATE_SPEED_FEED_SYNCHRONIZATION) {
     state.synchronized = false;
   }
-  callEntry("onCommand", [which]);
+  handOn("onCommand", [which]);
+}
+
+// What the engine does of a record for which the post has no function, no source states. Moves of five axes are
+// not left out: nothing else would tell of them.
+function handOn(name, parameters) {
+  if (callEntry(name, parameters)) {
+    return;
+  }
+  if (/5D$/.test(name)) {
+    throw endRun(new Stop("expand", "the post has no " + name + ": moves of five axes are left to the engine, and no source states what it does"));
+  }
+  unproven("the job comes to " + name + ", which the post does not have; nothing is printed there");
 }
 
 // What stands between operations or in them by hand.
@@ -54,16 +66,16 @@ function circular(record) {
   var start = state.position || new Vector();
   state.motion = {start: start, end: to, center: center, normal: normal, clockwise: Boolean(record.clockwise),
     feed: record.feed, full: record.full === true};
-  callEntry("onCircular", [Boolean(record.clockwise), center.x, center.y, center.z, to.x, to.y, to.z, record.feed]);
+  handOn("onCircular", [Boolean(record.clockwise), center.x, center.y, center.z, to.x, to.y, to.z, record.feed]);
   state.motion = undefined;
   moveTo(to);
 }
 
 function cycleRecord(record) {
   var cycle = {};
-  for (var name in record.cycle) {
+  Object.keys(record.cycle).forEach(function (name) {
     cycle[name] = CYCLE_LENGTHS.indexOf(name) < 0 ? record.cycle[name] : rounded(record.cycle[name]);
-  }
+  });
   global.cycle = cycle;
   global.cycleType = record.type;
   global.cycleExpanded = false;
@@ -99,35 +111,35 @@ function carryOut(record) {
   switch (record.record) {
   case "rapid":
     global.movement = values.MOVEMENT_RAPID;
-    callEntry("onRapid", [to.x, to.y, to.z]);
+    handOn("onRapid", [to.x, to.y, to.z]);
     moveTo(to);
     break;
   case "linear":
-    callEntry("onLinear", [to.x, to.y, to.z, record.feed]);
+    handOn("onLinear", [to.x, to.y, to.z, record.feed]);
     moveTo(to);
     break;
   case "rapid5":
   case "linear5":
     var axis = vectorOf(record.axis);
     if (record.record === "rapid5") {
-      callEntry("onRapid5D", [to.x, to.y, to.z, axis.x, axis.y, axis.z]);
+      handOn("onRapid5D", [to.x, to.y, to.z, axis.x, axis.y, axis.z]);
     } else {
-      callEntry("onLinear5D", [to.x, to.y, to.z, axis.x, axis.y, axis.z, record.feed, values.FEED_FPM]);
+      handOn("onLinear5D", [to.x, to.y, to.z, axis.x, axis.y, axis.z, record.feed, values.FEED_FPM]);
     }
     state.direction = axis;
     moveTo(to);
     break;
   case "circular": circular(record); break;
   case "cycle": cycleRecord(record); break;
-  case "dwell": callEntry("onDwell", [record.seconds]); break;
+  case "dwell": handOn("onDwell", [record.seconds]); break;
   case "spindle":
     global.spindleSpeed = record.rpm;
-    callEntry("onSpindleSpeed", [record.rpm]);
+    handOn("onSpindleSpeed", [record.rpm]);
     break;
   case "command": command(commandOf(record.command)); break;
   case "manual": manual(record); break;
   case "comment": callEntry("onComment", [record.text]); break;
-  case "passthrough": callEntry("onPassThrough", [record.text]); break;
+  case "passthrough": handOn("onPassThrough", [record.text]); break;
   case "parameter": parameter(record.name, record.value); break;
   case "movement":
     global.movement = movementOf(record.movement);
@@ -139,13 +151,14 @@ function carryOut(record) {
     break;
   case "compensation":
     global.radiusCompensation = values["RADIUS_COMPENSATION_" + String(record.side).toUpperCase()];
-    callEntry("onRadiusCompensation");
+    handOn("onRadiusCompensation");
     break;
   default: throw sourceError("`" + record.record + "` is no record of a job");
   }
 }
 
 function runSection(section) {
+  checkClaim(section);
   (section.dotek.before || []).forEach(carryOut);
   state.parameters = {};
   state.skip = false;
@@ -170,13 +183,8 @@ function runSection(section) {
 }
 
 function setProperties(of) {
-  var all = global.properties || {};
-  for (var name in of) {
-    if (!Object.prototype.hasOwnProperty.call(all, name)) {
-      throw new Stop("property", name);
-    }
-    setProperty(name, of[name]);
-  }
+  checkProperties(of);
+  Object.keys(of).forEach(function (name) { setProperty(name, of[name]); });
 }
 
 function runJob(job) {
@@ -185,6 +193,7 @@ function runJob(job) {
   global.programComment = job.programComment === undefined ? "" : job.programComment;
   state.includes = job.includes || {};
   state.sections = [];
+  (job.sections || []).forEach(function (one) { checkProperties(one.properties); });
   (job.sections || []).forEach(function (one, i) { state.sections.push(new Section(one, i)); });
   if (global.dotekUnits !== undefined) {
     global.dotekUnits();
@@ -216,9 +225,26 @@ function at(places) {
   return places.map(function (one) { return one.source + "\t" + one.line + "\t" + one.name; }).join("\n");
 }
 
+// What a program of the job needs of a machine: number and diameter in mm of the probe, and the work offsets.
+function probeOf() {
+  var probes = state.sections.filter(function (one) { return one.dotekTool.type === values.TOOL_PROBE; });
+  if (probes.length === 0) {
+    return [];
+  }
+  var tool = probes[0].dotekTool;
+  var offsets = {};
+  state.sections.forEach(function (one) { offsets[one.workOffset || 1] = true; });
+  return ["T" + [tool.number, tool.diameter * (isMillimetre() ? 1 : 25.4)].concat(Object.keys(offsets)).join("\n")];
+}
+
 // The list: of each text the first letter says what it is. N: the program; M: a line of the map; F: a file; W: a
-// warning; L: the log; E: what ended the run, with places and circumstances; P: a property; C: a capability.
+// warning; L: the log; E: what ended the run, with places and circumstances; T: the probe; P: a property; C: a
+// capability.
 function run(job) {
+  var against = replaced();
+  if (against !== "") {
+    return [replacedFault(against)];
+  }
   loading = false;
   begin(job);
   if (job.list === "properties") {
@@ -231,12 +257,21 @@ function run(job) {
   } catch (thrown) {
     fault = faultOf(thrown);
   }
+  against = replaced();
+  if (against !== "") {
+    return [replacedFault(against)];
+  }
   if (loadFault !== undefined || state.stopped !== undefined) {
     fault = faultOf(loadFault || state.stopped);
+  }
+  // A post that catches the engine's bounds prints what depends on them.
+  if (fault === undefined && boundOf() !== undefined) {
+    fault = {kind: "thrown", text: "Error: " + boundOf(), stack: "", section: undefined, cycle: undefined};
   }
   if (fault === undefined) { // of one that fails there is no program
     out.push("N" + state.text.join(""));
     state.places.forEach(function (places) { out.push("M" + at(places || [])); });
+    out = out.concat(probeOf());
   }
   Object.keys(state.files).forEach(function (name) { out.push("F" + name + "\n" + state.files[name]); });
   state.warnings.forEach(function (one) { out.push("W" + one.text.replace(/\n/g, " ") + "\n" + at(one.places)); });
@@ -317,6 +352,7 @@ global.dotekPrepare = function (setup) {
       };
     }
   });
+  watch();
   begin({});
   loading = true;
   state.includes = setup.includes || {};

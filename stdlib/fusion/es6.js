@@ -7,6 +7,11 @@ var dotekEs6 = (function () {
       throw new TypeError(of + " has no elements");
     }
     if (Array.isArray(of)) {
+      for (var at = 0; at < of.length; ++at) {
+        if (!(at in of)) { // a hole is an element to who goes through them
+          return filled(of);
+        }
+      }
       return of;
     }
     if (typeof of === "string") {
@@ -16,13 +21,33 @@ var dotekEs6 = (function () {
       return of.dotekList();
     }
     if (typeof of.length === "number") {
-      var out = []; // without holes
-      for (var i = 0; i < of.length; ++i) {
-        out.push(of[i]);
-      }
-      return out;
+      return filled(of);
     }
     throw new TypeError("a value without elements is read as a list");
+  }
+  function filled(of) {
+    var out = [];
+    for (var i = 0; i < of.length; ++i) {
+      out.push(of[i]);
+    }
+    return out;
+  }
+  // What an assignment to a const is written to.
+  function constant(name) {
+    return {
+      get value() { return undefined; },
+      set value(given) { throw new TypeError("`" + name + "` is const and keeps its first value"); }
+    };
+  }
+  // Members that are no names for JSON and for..in.
+  function hidden(to, members) {
+    for (var name in members) {
+      Object.defineProperty(to, name, {value: members[name], writable: true, configurable: true, enumerable: false});
+    }
+  }
+  // Methods of a class are none of the names that for..in goes through.
+  function method(object, name, body) {
+    Object.defineProperty(object, name, {value: body, writable: true, configurable: true, enumerable: false});
   }
   function assign(to) {
     for (var i = 1; i < arguments.length; ++i) {
@@ -95,12 +120,8 @@ var dotekEs6 = (function () {
   }
   function extend(made, base) {
     made.prototype = Object.create(base.prototype);
-    made.prototype.constructor = made;
-    for (var key in base) {
-      if (Object.prototype.hasOwnProperty.call(base, key)) {
-        made[key] = base[key];
-      }
-    }
+    method(made.prototype, "constructor", made);
+    Object.setPrototypeOf(made, base); // static members are inherited, too
   }
   function init(base, self, values) {
     var out = base.apply(self, values);
@@ -282,104 +303,6 @@ var dotekEs6 = (function () {
   add(Number, "MIN_SAFE_INTEGER", -9007199254740991);
 
   return {
-    list: list, assign: assign, object: object, spread: spread, prototype: prototype, computed: computed, rest: rest, pair: pair, extend: extend, init: init, make: make, accessor: accessor
+    list: list, assign: assign, object: object, spread: spread, prototype: prototype, computed: computed, rest: rest, pair: pair, extend: extend, init: init, make: make, accessor: accessor, constant: constant, method: method, hidden: hidden, add: add
   };
 })();
-
-if (typeof Map === "undefined") {
-  var Map = (function () {
-    function Table(pairs) {
-      this.dotekKeys = [];
-      this.dotekValues = [];
-      this.size = 0;
-      var given = pairs === undefined || pairs === null ? [] : dotekEs6.list(pairs);
-      for (var i = 0; i < given.length; ++i) {
-        this.set(given[i][0], given[i][1]);
-      }
-    }
-    Table.prototype.dotekAt = function (key) {
-      for (var i = 0; i < this.dotekKeys.length; ++i) {
-        if (this.dotekKeys[i] === key || (key !== key && this.dotekKeys[i] !== this.dotekKeys[i])) {
-          return i;
-        }
-      }
-      return -1;
-    };
-    Table.prototype.get = function (key) {
-      var at = this.dotekAt(key);
-      return at < 0 ? undefined : this.dotekValues[at];
-    };
-    Table.prototype.has = function (key) { return this.dotekAt(key) >= 0; };
-    Table.prototype.set = function (key, value) {
-      var at = this.dotekAt(key);
-      if (at < 0) {
-        this.dotekKeys.push(key);
-        this.dotekValues.push(value);
-        ++this.size;
-      } else {
-        this.dotekValues[at] = value;
-      }
-      return this;
-    };
-    Table.prototype["delete"] = function (key) {
-      var at = this.dotekAt(key);
-      if (at >= 0) {
-        this.dotekKeys.splice(at, 1);
-        this.dotekValues.splice(at, 1);
-        --this.size;
-      }
-      return at >= 0;
-    };
-    Table.prototype.clear = function () {
-      this.dotekKeys = [];
-      this.dotekValues = [];
-      this.size = 0;
-    };
-    Table.prototype.keys = function () { return this.dotekKeys.slice(); };
-    Table.prototype.values = function () { return this.dotekValues.slice(); };
-    Table.prototype.entries = function () {
-      var values = this.dotekValues;
-      return this.dotekKeys.map(function (key, i) { return [key, values[i]]; });
-    };
-    Table.prototype.dotekList = Table.prototype.entries;
-    Table.prototype.forEach = function (call, self) {
-      this.entries().forEach(function (pair) { call.call(self, pair[1], pair[0], this); }, this);
-    };
-    return Table;
-  })();
-}
-
-if (typeof Set === "undefined") {
-  var Set = (function () {
-    function Members(values) {
-      this.dotekMap = new Map();
-      this.size = 0;
-      var given = values === undefined || values === null ? [] : dotekEs6.list(values);
-      for (var i = 0; i < given.length; ++i) {
-        this.add(given[i]);
-      }
-    }
-    Members.prototype.add = function (value) {
-      this.dotekMap.set(value, value);
-      this.size = this.dotekMap.size;
-      return this;
-    };
-    Members.prototype.has = function (value) { return this.dotekMap.has(value); };
-    Members.prototype["delete"] = function (value) {
-      var out = this.dotekMap["delete"](value);
-      this.size = this.dotekMap.size;
-      return out;
-    };
-    Members.prototype.clear = function () {
-      this.dotekMap.clear();
-      this.size = 0;
-    };
-    Members.prototype.values = function () { return this.dotekMap.keys(); };
-    Members.prototype.keys = Members.prototype.values;
-    Members.prototype.dotekList = Members.prototype.values;
-    Members.prototype.forEach = function (call, self) {
-      this.values().forEach(function (value) { call.call(self, value, value, this); }, this);
-    };
-    return Members;
-  })();
-}

@@ -103,8 +103,9 @@ TEST_CASE("fusion posts: scripts without an end are stopped with the limit that 
   stopped("for (;;) { writeln('0123456789'); }", "it wrote more than");
   stopped("redirectToFile('../out'); for (;;) { writeln('0123456789'); }", "it wrote more than");
   stopped("var o = {}; o.o = o; JSON.stringify(o);", "cyclic input");
-  stopped("(function f() { f(); }());", "callstack limit");
-  stopped("var o = {toString: function () { return '' + this; }}; writeln(o);", "stack depth limit");
+  stopped("(function f() { f(); }());", "its calls are nested without end");
+  stopped("var o = {toString: function () { return '' + this; }}; writeln(o);",
+          "its calls are nested without end");
   stopped("JSON.parse(new Array(100000).join('['));", "recursion limit");
   stopped("include('post.cps');", "include: `post.cps`");
 }

@@ -46,5 +46,8 @@ function onOpen() {
   writeWords2("N20", group.format(1));
   setWordSeparator("");
   writeWords("G1", "X5");
+  show("a turn in radians", {decimals:3, scale:DEG, cyclicLimit:2 * Math.PI}, Math.PI * 2.5);
+  show("a turn in radians, positive", {decimals:3, scale:DEG, cyclicLimit:2 * Math.PI, cyclicSign:1}, -Math.PI / 2);
+  writeln("error " + createFormat({decimals:3}).getError(4.5005));
   writeln(subst("%1 of %2", 3, "four") + conditional(false, "no"));
 }

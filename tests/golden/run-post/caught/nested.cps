@@ -1,0 +1,7 @@
+description = "Calls itself without end";
+function deep(n) {
+  return 1 + deep(n + 1);
+}
+function onSection() {
+  deep(0);
+}
