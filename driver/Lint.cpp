@@ -6,12 +6,14 @@
 #include "driver/LintBaseline.h"
 #include "driver/LintFix.h"
 #include "frontend/compost/Summary.h"
+#include "frontend/fusion/Declared.h"
 #include "frontend/fusion/Parse.h"
 #include "frontend/gibbs/Check.h"
 #include "frontend/macrob/Check.h"
 #include "frontend/mikroprog/Parse.h"
 #include "lint/Baseline.h"
 #include "lint/Config.h"
+#include "lint/PostEntries.h"
 #include "lint/PostFile.h"
 #include "lint/PostedBlocks.h"
 #include "lint/Project.h"
@@ -406,9 +408,10 @@ private:
     for (const frontend::fusion::Unread& one : post.tree.unread)
       session_.diagnostics().report<diag::PostUnread>(one.range, one.message);
     post.scopes = frontend::fusion::resolve(post.tree);
-    for (const auto& [name, symbol] : post.scopes.scopes.front().names)
-      if (symbol->kind == frontend::fusion::Symbol::Kind::Function && fusionNames_->entries.contains(name))
-        post.whole = true;
+    for (const frontend::fusion::Unread& one : frontend::fusion::declaredTwice(post.tree, post.scopes))
+      session_.diagnostics().report<diag::PostUnread>(one.range, one.message);
+    for (const lint::TopFunction& one : lint::topFunctions(post.tree))
+      if (fusionNames_->entries.contains(one.name->text)) post.whole = true;
   }
 
   // Without --control a program with Y is taken for one of a mill, else for one of the lathe.

@@ -54,23 +54,32 @@ void check(const Project& project, Report& report) {
           });
         if (!macro) return;
         const fusion::Node* wrong = nullptr;
+        std::string_view written;
         bool right = false;
         for (std::size_t k = 1; k < call.kids.size(); ++k) {
           const fusion::Node* const word = fusion::bare(call.kids[k]);
-          if (!word->is(fusion::Kind::Binary) || word->text != "+") continue;
-          const std::string_view letter = textLiteral(word->kids[0]);
-          if (letter.size() != 1) continue;
+          // `"X" + value`, or a template of the letter and the value.
+          const bool whole = word->is(fusion::Kind::Template) && word->kids.size() == 1;
+          if (!whole && (!word->is(fusion::Kind::Binary) || word->text != "+")) continue;
+          const std::string_view letter =
+              whole ? post.tree.text.substr(word->begin + 1, word->kids[0]->begin - word->begin - 1)
+                    : textLiteral(word->kids[0]);
+          if (whole ? !letter.substr(std::min<std::size_t>(1, letter.size())).starts_with("${")
+                    : letter.size() != 1)
+            continue;
           if (letter[0] == own) {
             right = true;
-            judge(*word->kids[1]);
-          } else if ((letter[0] == 'X' || letter[0] == 'Y') && wrong == nullptr)
+            judge(*word->kids[whole ? 0 : 1]);
+          } else if ((letter[0] == 'X' || letter[0] == 'Y') && wrong == nullptr) {
             wrong = word;
+            written = letter.substr(0, 1);
+          }
         }
         if (wrong != nullptr && !right)
           report.at(
-              post.tree.range(*wrong->kids[0]),
+              wrong->is(fusion::Kind::Template) ? post.tree.range(*wrong) : post.tree.range(*wrong->kids[0]),
               "`{}` measures along {}, and the block has the word {}: the probe moves along the other axis",
-              type, own, textLiteral(wrong->kids[0]));
+              type, own, written);
       });
   });
 }

@@ -1,15 +1,14 @@
-#include "lint/Posts.h"
+#include "lint/PostEntries.h"
 
 namespace dotek::lint::rule {
 namespace {
 
 void check(const Project& project, Report& report) {
   forEachPost(project, [&](const PostFile& post) {
-    for (const fusion::Node* one : post.tree.body) {
-      if (!one->is(fusion::Kind::Function) || one->kids[0] == nullptr || one->kids[0]->text != "onCommand")
-        continue;
+    for (const TopFunction& one : topFunctions(post.tree)) {
+      if (one.name->text != "onCommand") continue;
       bool refuses = false, any = false;
-      walk(one, [&](const fusion::Node& node) {
+      walk(one.body(), [&](const fusion::Node& node) {
         if (node.is(fusion::Kind::Switch) || node.is(fusion::Kind::If)) any = true;
         if (!node.is(fusion::Kind::Call)) return;
         const std::string name = calledName(node);
@@ -17,8 +16,8 @@ void check(const Project& project, Report& report) {
                   name == "warningOnce" || (name.starts_with("on") && name != "onCommand");
       });
       if (any && !refuses)
-        report.at(post.tree.range(*one->kids[0]), "no branch of onCommand calls onUnsupportedCommand: a "
-                                                  "command that it does not know is passed over in silence");
+        report.at(post.tree.range(*one.name), "no branch of onCommand calls onUnsupportedCommand: a "
+                                              "command that it does not know is passed over in silence");
     }
   });
 }

@@ -1,19 +1,18 @@
-#include "lint/Posts.h"
+#include "lint/PostEntries.h"
+
+#include <algorithm>
 
 namespace dotek::lint::rule {
 namespace {
 
 // Directly in onCyclePoint or onCommand: elsewhere a switch may only choose.
 bool inEntry(const PostFile& post, const fusion::Node& node) {
-  for (const fusion::Node* one : post.tree.body) {
-    if (!one->is(fusion::Kind::Function) || one->begin > node.begin || one->end < node.end ||
-        one->kids[0] == nullptr)
-      continue;
-    const std::string_view name = one->kids[0]->text;
-    if (name != "onCyclePoint" && name != "onCommand") return false;
+  for (const TopFunction& one : topFunctions(post.tree)) {
+    if (one.function->begin > node.begin || one.function->end < node.end) continue;
+    if (one.name->text != "onCyclePoint" && one.name->text != "onCommand") return false;
     // Something after it that ends or goes on with the rest.
-    const auto& body = one->kids[2]->kids;
-    return !body.empty() && body.back() == &node;
+    const auto& body = one.body()->kids;
+    return one.body()->is(fusion::Kind::Block) && !body.empty() && body.back() == &node;
   }
   return false;
 }
@@ -39,8 +38,11 @@ std::string leftOpen(const PostFile& post, const fusion::Node& node) {
         symbol.scope->function->node == nullptr)
       continue;
     const fusion::Node& function = *symbol.scope->function->node;
-    if (!function.is(fusion::Kind::Function) || function.kids[0] == nullptr ||
-        !function.kids[0]->isName("onCyclePoint") || node.begin < function.begin || node.end > function.end)
+    if (node.begin < function.begin || node.end > function.end) continue;
+    const std::vector<TopFunction> top = topFunctions(post.tree);
+    if (std::none_of(top.begin(), top.end(), [&](const TopFunction& one) {
+          return one.function == &function && one.name->text == "onCyclePoint";
+        }))
       continue;
     bool before = false, after = false;
     for (const fusion::Use& use : post.scopes.uses) {
