@@ -194,10 +194,11 @@ std::string Lowering::classText(const Node& node) {
   }
   if (base != nullptr && constructor != nullptr && !fields.empty())
     refuse(node, "fields of a class with `extends` and a constructor");
+  const std::string needsNew = fmt::format("dotekEs6.made(this, {}); ", name);
   std::string out = statement ? "var " + name + " = " : "";
   out += "(function (" + super + ") {";
   if (constructor == nullptr)
-    out += fmt::format(" function {}() {{ {}{}}}", name,
+    out += fmt::format(" function {}() {{ {}{}{}}}", name, needsNew,
                        base == nullptr ? "" : "dotekEs6.init(" + super + ", this, arguments); ", fields);
   if (base != nullptr) out += " dotekEs6.extend(" + name + ", " + super + ");";
   std::uint32_t from = node.begin;
@@ -211,7 +212,7 @@ std::string Lowering::classText(const Node& node) {
     }
     const Node& of_ = *one.kids[1];
     const std::string function =
-        functionRest(*of_.kids[1], *of_.kids[2], &one == constructor ? " " + fields : "");
+        functionRest(*of_.kids[1], *of_.kids[2], &one == constructor ? " " + needsNew + fields : "");
     const std::string place = one.flag ? name : name + ".prototype";
     if (&one == constructor)
       out += "function " + name + function;

@@ -1,5 +1,6 @@
-#include "lint/Posts.h"
+#include "lint/PostEntries.h"
 
+#include <algorithm>
 #include <map>
 #include <set>
 
@@ -10,26 +11,19 @@ void check(const Project& project, Report& report) {
   forEachPost(project, [&](const PostFile& post) {
     std::set<std::string_view> printed, claimed;
     std::map<std::string_view, const fusion::Node*> places;
-    const auto collect = [&](const fusion::Node& function, std::set<std::string_view>& into, bool place) {
-      walk(&function, [&](const fusion::Node& node) {
-        if (!node.is(fusion::Kind::String)) return;
-        const std::string_view text = fusion::stringText(node);
-        if (!text.starts_with("probing-")) return;
-        into.insert(text);
-        if (place) places.try_emplace(text, &node);
-      });
-    };
-    bool any = false;
-    for (const fusion::Node* one : post.tree.body) {
-      if (!one->is(fusion::Kind::Function) || one->kids[0] == nullptr) continue;
-      if (one->kids[0]->text == "isProbingCycle") {
-        any = true;
-        collect(*one, claimed, true);
-      } else {
-        collect(*one, printed, false);
-      }
+    const std::vector<TopFunction> top = topFunctions(post.tree);
+    const auto claims = std::find_if(
+        top.begin(), top.end(), [](const TopFunction& one) { return one.name->text == "isProbingCycle"; });
+    if (claims == top.end()) return;
+    const fusion::Node& own = *claims->function;
+    for (const fusion::Node& node : post.tree.nodes) {
+      if (!node.is(fusion::Kind::String)) continue;
+      const std::string_view text = fusion::stringText(node);
+      if (!text.starts_with("probing-")) continue;
+      const bool inside = node.begin >= own.begin && node.end <= own.end;
+      (inside ? claimed : printed).insert(text);
+      if (inside) places.try_emplace(text, &node);
     }
-    if (!any) return;
     for (const std::string_view type : claimed)
       if (!printed.contains(type))
         report.at(post.tree.range(*places[type]),

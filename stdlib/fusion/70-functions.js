@@ -459,7 +459,12 @@ give({
     moveTo(new Vector(x, y, z));
   },
   expandManualNC: function (command, value) {
-    if (command === values.COMMAND_COMMENT || command === values.COMMAND_DISPLAY_MESSAGE) {
+    // onParameter gets what has a text and is no block: the reference names these parameters.
+    var told = [[values.COMMAND_ACTION, "action"], [values.COMMAND_PRINT_MESSAGE, "print"],
+      [values.COMMAND_DISPLAY_MESSAGE, "display"]].filter(function (one) { return one[0] === command; });
+    if (told.length > 0) {
+      parameter(told[0][1], value);
+    } else if (command === values.COMMAND_COMMENT) {
       callEntry("onComment", [value]);
     } else if (command === values.COMMAND_PASS_THROUGH) {
       handOn("onPassThrough", [value]);
@@ -599,9 +604,11 @@ var FileSystem = {
   getFilename: function (path) { return String(path).replace(/^.*[\\/]/, ""); },
   replaceExtension: function (path, extension) { return String(path).replace(/\.[^.\\/]*$/, "") + "." + extension; },
   getCombinedPath: function (a, b) { return a === "" ? b : a + "/" + b; },
-  getTemporaryFolder: function () { return ""; }, getTemporaryFile: function () { return ""; },
-  makeFolder: function () {}, remove: function () {}, copyFile: function () {}, moveFile: function () {}
+  getTemporaryFolder: function () { return ""; }, getTemporaryFile: function () { return ""; }
 };
+["makeFolder", "remove", "copyFile", "moveFile"].forEach(function (name) {
+  FileSystem[name] = function () { unproven("the post calls FileSystem." + name + ": a run touches no file"); };
+});
 give({FileSystem: FileSystem, Table: Table, Color: Color});
 
 function recordOf(i) {

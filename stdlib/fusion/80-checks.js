@@ -1,9 +1,10 @@
 // ---- what a run says beside the program --------------------------------------------------------------------------
 
-// Once a run.
-function unproven(text) {
-  if (!state.told[text]) {
-    state.told[text] = true;
+// Once a run, or once of a kind.
+function unproven(text, kind) {
+  var key = "unproven " + (kind === undefined ? text : kind);
+  if (!state.told[key]) {
+    state.told[key] = true;
     warning(text);
   }
 }
@@ -55,7 +56,7 @@ function checkClaim(section) {
     if (section.getType() === values[one[0]] && global.capabilities > 0 &&
         (global.capabilities & values[one[1]]) === 0) {
       unproven("section " + (section.dotekId + 1) + " is of " + one[0] + ", and `capabilities` lacks " + one[1] +
-               ": Fusion may refuse it");
+               ": Fusion may refuse it", one[0]);
     }
   });
 }

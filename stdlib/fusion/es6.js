@@ -32,6 +32,11 @@ var dotekEs6 = (function () {
     }
     return out;
   }
+  function made(self, type) {
+    if (!(self instanceof type)) {
+      throw new TypeError("a class is made with `new`");
+    }
+  }
   // What an assignment to a const is written to.
   function constant(name) {
     return {
@@ -303,6 +308,6 @@ var dotekEs6 = (function () {
   add(Number, "MIN_SAFE_INTEGER", -9007199254740991);
 
   return {
-    list: list, assign: assign, object: object, spread: spread, prototype: prototype, computed: computed, rest: rest, pair: pair, extend: extend, init: init, make: make, accessor: accessor, constant: constant, method: method, hidden: hidden, add: add
+    list: list, assign: assign, object: object, spread: spread, prototype: prototype, computed: computed, rest: rest, pair: pair, extend: extend, init: init, make: make, accessor: accessor, constant: constant, made: made, method: method, hidden: hidden, add: add
   };
 })();
