@@ -48,7 +48,7 @@ function begin(job) {
     separator: " ", eol: "\n", warnings: [], log: [], told: {}, notes: {}, handlers: [],
     position: undefined, direction: undefined, rotation: undefined, translation: undefined, section: undefined,
     record: undefined, parameters: {}, cyclePoint: 0, cyclePoints: [], expanding: false, skip: false, motion: undefined,
-    synchronized: false, buffered: {}, entry: undefined};
+    synchronized: false, buffered: {}, entry: undefined, closed: false};
 }
 
 // Lines of a buffer and who wrote them, by their text: who writes the buffer out is not their author.
@@ -87,6 +87,9 @@ function write(text, whole) {
   var to = state.redirected[state.redirected.length - 1];
   if (to !== undefined) {
     to.text.push(piece);
+  } else if (state.closed) {
+    unproven("the program is closed before onTerminate, and what the post writes there is in no file", "closed");
+    return;
   } else {
     state.text.push(piece);
   }

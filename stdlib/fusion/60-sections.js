@@ -90,6 +90,7 @@ function Section(given, id) {
   this.polarMode = values.POLAR_MODE_OFF;
   this.dotekParameters = given.parameters || {};
   var points = [];
+  var depths = []; // beside them, where holes end: headers of programs name the lowest Z of each tool
   this.dotekRecords.forEach(function (record) {
     if (record.to !== undefined) {
       points.push(vectorOf(record.to, true));
@@ -97,9 +98,12 @@ function Section(given, id) {
     (record.points || []).forEach(function (point) {
       var height = record.cycle && record.cycle.clearance !== undefined ? record.cycle.clearance : point[2];
       points.push(vectorOf([point[0], point[1], height], true));
+      var bottom = record.cycle && typeof record.cycle.bottom === "number" ? Math.min(record.cycle.bottom, point[2]) : point[2];
+      depths.push(vectorOf([point[0], point[1], bottom], true));
     });
   });
   this.dotekPoints = points;
+  this.dotekReach = points.concat(depths);
 }
 function matrixOf(list) {
   var out = new Matrix();
@@ -130,7 +134,7 @@ Section.prototype.getFinalPosition = function () {
   return this.dotekPoints[this.dotekPoints.length - 1] || this.getInitialPosition();
 };
 Section.prototype.dotekRange = function (axis) {
-  var all = this.dotekPoints.map(function (point) { return point[axis]; });
+  var all = this.dotekReach.map(function (point) { return point[axis]; });
   return all.length === 0 ? new Range(0, 0) : new Range(Math.min.apply(Math, all), Math.max.apply(Math, all));
 };
 Section.prototype.getGlobalZRange = function () { return this.dotekRange("z"); };
@@ -146,7 +150,7 @@ Section.prototype.getBoundingBox = function () {
 };
 Section.prototype.getGlobalBoundingBox = Section.prototype.getBoundingBox;
 Section.prototype.getGlobalRange = function (direction) {
-  var all = this.dotekPoints.map(function (point) { return Vector.dot(point, direction); });
+  var all = this.dotekReach.map(function (point) { return Vector.dot(point, direction); });
   return all.length === 0 ? new Range(0, 0) : new Range(Math.min.apply(Math, all), Math.max.apply(Math, all));
 };
 function cyclesOf(section) {

@@ -90,6 +90,9 @@ function cycleRecord(record) {
     } else {
       expandCyclePoint(point.x, point.y, point.z);
     }
+    if (global.cycleExpanded) {
+      return; // the moves have led it where it is
+    }
     // After a cycle the tool is at the height of its end, over the point.
     var height = cycle.retract === undefined ? cycle.clearance : cycle.retract;
     moveTo(new Vector(point.x, point.y, height === undefined ? point.z : height));
@@ -205,6 +208,7 @@ function runJob(job) {
   (job.after || []).forEach(carryOut);
   // Posts ask for the last section in onClose.
   callEntry("onClose");
+  state.closed = true;
   callEntry("onTerminate");
   state.handlers.reverse().forEach(function (call) { call(); });
   if (state.redirected.length > 0) {
