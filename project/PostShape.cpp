@@ -22,8 +22,14 @@ View trimmed(View line) {
   return line;
 }
 
-// `function name(`
+// `function name(`, `class Name`, `const name = (..) =>`
 bool isFunction(View line) {
+  if (line.starts_with("class ") && line.ends_with('{')) return true;
+  for (const View word : {View("const "), View("let "), View("var ")})
+    if (line.starts_with(word) && line.find('=') != View::npos &&
+        (line.find("=>") != View::npos || line.find("function (") != View::npos ||
+         line.find("function(") != View::npos))
+      return true;
   if (!line.starts_with("function ")) return false;
   std::size_t at = line.find_first_not_of(' ', 9);
   if (at == View::npos || !isWord(line[at])) return false;

@@ -162,6 +162,11 @@ TEST_CASE("input kind: macros, dialogs, definitions and Progs without their name
   const std::string part =
       "// a part of a post\nfunction probeX(cycle, x) {\n  writeBlock(\"G65\", \"P9811\");\n  return x;\n}\n";
   CHECK(isPost(recognise("part.js", part)));
+  const std::string arrows =
+      "const probeX = (x, y) => {\n  writeBlock(\"G65\", \"P9811\", `X${xyzFormat.format(x)}`);\n};\n";
+  CHECK(isPost(recognise("part.js", arrows)));
+  CHECK_FALSE(
+      isPost(recognise("other.js", "const sum = (a, b) => {\n  return a + b;\n};\nexport default sum;\n")));
   // What is called a post by mistake.
   CHECK(kindOf("%\nO1001\nG65 P9810 Z5. F1000.\nG0 X10.\nM30\n%\n", "mill.cps") == "nc");
 }
