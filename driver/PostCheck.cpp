@@ -3,6 +3,7 @@
 #include "driver/Command.h"
 #include "stdlib/MikroprogControl.h"
 #include "support/WholeName.h"
+#include "support/messages/Commands.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -59,6 +60,13 @@ public:
     out.fails = linted.status != 0;
     take(std::move(linted));
     if (!options_.part && !options_.machine) return out;
+    if (!options_.machine && !result_.probe) {
+      session_.diagnostics().report<diag::MissingOption>(
+          {}, "run-post", "--machine MACHINE.toml",
+          "the job has no probe that could touch the part of `--part`");
+      out.fails = true;
+      return out;
+    }
     SimOptions simOptions;
     simOptions.program = name_;
     simOptions.common = common_;
@@ -80,7 +88,6 @@ private:
   // Without a machine's file the job says which ball touches the part; its length is in its own offset, and
   // work offsets are where the part is.
   void useProbe(stdlib::Setup& setup) const {
-    if (!result_.probe) return; // `sim` says what is missing
     setup.tool = result_.probe->tool;
     setup.ballDiameter = result_.probe->diameter;
     setup.length = kBareLength;

@@ -45,6 +45,13 @@ function scaledOf(format, value) {
   return settings["offset-after-scale"] ? of * format.scale + format.offset : (of + format.offset) * format.scale;
 }
 
+// What an engine does of a value that its format does not allow, no source states.
+function checkBounds(format, value) {
+  if (value < format.minimum || value > format.maximum) {
+    unproven("a format has `minimum` or `maximum`, and a value lies beyond: it is printed as it is given");
+  }
+}
+
 // How often the last decimal place is in the value, half away from zero; never -0.
 function unitsOf(format, value) {
   var scaled = scaledOf(format, value);
@@ -68,6 +75,7 @@ function digitsOf(units) {
 
 Format.prototype.format = function (given) {
   var value = numberOf(given, "format");
+  checkBounds(this, value);
   var places = placesOf(this);
   var units = unitsOf(this, value);
   var sign = units < 0 ? "-" : this.forceSign ? "+" : "";

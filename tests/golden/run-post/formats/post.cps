@@ -48,6 +48,7 @@ function onOpen() {
   writeWords("G1", "X5");
   show("a turn in radians", {decimals:3, scale:DEG, cyclicLimit:2 * Math.PI}, Math.PI * 2.5);
   show("a turn in radians, positive", {decimals:3, scale:DEG, cyclicLimit:2 * Math.PI, cyclicSign:1}, -Math.PI / 2);
+  show("beyond its maximum", {decimals:1, minimum:0, maximum:10}, 12);
   writeln("error " + createFormat({decimals:3}).getError(4.5005));
   writeln(subst("%1 of %2", 3, "four") + conditional(false, "no"));
 }
