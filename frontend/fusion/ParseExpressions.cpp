@@ -34,8 +34,15 @@ bool assigns(View sign) {
 
 } // namespace
 
+// `#count` of a class.
+void Parser::refusePrivate() {
+  if (textOf(here()).starts_with('#'))
+    fail("private members (`#name`) are not read: no post engine is known to have them");
+}
+
 Node* Parser::name(bool any) {
   const Token& token = here();
+  refusePrivate();
   if (token.type != TokenType::Name || (!any && isReserved(textOf(token))))
     fail(fmt::format("a name is expected, and {}", found()));
   ++at_;
@@ -364,6 +371,7 @@ Node* Parser::key() {
   }
   if (token.type == TokenType::Name) return name(true);
   if (token.type == TokenType::String || token.type == TokenType::Number) return primary();
+  refusePrivate();
   fail(fmt::format("a name is expected, and {}", found()));
 }
 

@@ -38,6 +38,7 @@ private:
   std::uint32_t lastEnd() const { return at_ == 0 ? 0 : tokens_[at_ - 1].end; }
   [[noreturn]] void fail(std::string message);
   std::string found() const;
+  void refusePrivate();
   void semicolon();
 
   Node* make(Kind kind, std::uint32_t begin, std::vector<Node*> kids = {}, std::string_view text = {});
