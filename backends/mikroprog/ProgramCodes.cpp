@@ -22,6 +22,15 @@ std::string codeText(char letter, double value) {
   return letter + numberText(value);
 }
 
+// It is in force until another of its kind: the positions that follow belong to it.
+bool goesOn(const stdlib::CodeInfo& code, const stdlib::Control& control) {
+  const auto inGroupOf = [&](std::uint32_t tenths) {
+    const stdlib::CodeInfo* const other = control.find('G', tenths);
+    return other != nullptr && other->group && other->group == code.group;
+  };
+  return inGroupOf(10) || inGroupOf(800);
+}
+
 } // namespace
 
 bool ProgramWriter::code(const ir::Word& word, Parts& parts) {
@@ -32,6 +41,7 @@ bool ProgramWriter::code(const ir::Word& word, Parts& parts) {
       source_.find('G', static_cast<std::uint32_t>(std::lround(*value * 10)));
   const auto no = [&](const std::string& what, const std::string& instead) {
     cannot(word.range, fmt::format("`{}`: {}", name, what), instead);
+    if (info != nullptr && goesOn(*info, source_)) state_.refusedMotion = name;
     return false;
   };
   const auto out = [&](const std::string& why) {
@@ -54,6 +64,7 @@ bool ProgramWriter::code(const ir::Word& word, Parts& parts) {
   case Function::TurningCycle:
   case Function::FacingCycle:
     if (state_.motion != info->function) state_.cycleEnd = {}, state_.cycleTaper = 0;
+    state_.refusedMotion.clear();
     state_.motion = info->function;
     return true;
   case Function::ThreadingCycle:
@@ -73,7 +84,7 @@ bool ProgramWriter::code(const ir::Word& word, Parts& parts) {
                ? no("M6 puts the correction of a tool in force, and nothing ends it", "leave it out")
                : out("no length is in force before M6");
   case Function::ToolLengthPlus: return length(word, name);
-  case Function::CannedCycleOff: return out("cycles are of one block here");
+  case Function::CannedCycleOff: state_.refusedMotion.clear(); return out("cycles are of one block here");
   case Function::ReturnInitial: return out("cycles come back to where they begin");
   case Function::ModalCallOff:
   case Function::RotationOff:
@@ -89,7 +100,7 @@ bool ProgramWriter::code(const ir::Word& word, Parts& parts) {
     return no("here it has no surface speed, and takes the present speed and diameter for its base (Q27)",
               "write G97 with the speed of each diameter");
   case Function::WorkSystem:
-    if (info->tenths != 540 || std::exchange(state_.systemSaid, true))
+    if (info->tenths != 540)
       return no("here it is a stored shift or nothing, and a program has one active system",
                 "write all coordinates in one system, that of G54");
     return out("its zero is the active system, which the operator sets; here it would be stored shift 3");
@@ -128,10 +139,7 @@ bool ProgramWriter::clamp(const ir::Word& word, const std::string& name) {
       bool clamps = false;
       for (const ir::Word& one : block->words) {
         if (one.address == 'S') speed = &one;
-        const double* const value = ir::constantValue(one.value);
-        if (one.address != 'G' || value == nullptr) continue;
-        const stdlib::CodeInfo* const code =
-            source_.find('G', static_cast<std::uint32_t>(std::lround(*value * 10)));
+        const stdlib::CodeInfo* const code = one.address == 'G' ? codeOf(one) : nullptr;
         if (code != nullptr && code->function == Function::SurfaceSpeedOn)
           return no("this program has constant surface speed",
                     "write G97 with the speed of each diameter, and leave it out");
@@ -174,11 +182,23 @@ void ProgramWriter::auxiliary(const ir::Word& word, Parts& parts) {
   if (info == nullptr)
     return no(fmt::format("it is no code of `{}`", source_.name),
               "leave it out, or name the control it is for");
+  const auto another = [&](bool& one) {
+    if (std::exchange(one, true)) no("two codes for one thing are in the block", "write two blocks");
+  };
+  switch (info->function) {
+  case Function::SpindleClockwise:
+  case Function::SpindleCounterClockwise:
+  case Function::SpindleOff: another(parts.spindle); break;
+  case Function::CoolantFlood:
+  case Function::CoolantOff: another(parts.coolant); break;
+  default: break;
+  }
+  if (refused_) return;
   switch (info->function) {
   case Function::Stop: parts.after.emplace_back("M0"); return;
   case Function::ProgramEnd:
     parts.after.emplace_back("M30");
-    ended_ = true;
+    ended_ = programEnded_ = true;
     return;
   case Function::SpindleClockwise:
   case Function::SpindleCounterClockwise: {
@@ -215,6 +235,11 @@ void ProgramWriter::change(SourceRange range, double number, Parts& parts) {
       (place != nullptr && place->most && number > *place->most))
     return cannot(range, fmt::format("tool {} is none of this machine", numberText(number)),
                   "number the tools as its turret does");
+  // The tips of two tools differ, and so does where the new one is.
+  if (state_.tool != number) {
+    if (source_.turning) state_.at = {}, state_.cycleEnd = {};
+    state_.at[2].reset();
+  }
   state_.tool = static_cast<std::uint32_t>(number);
   state_.lengthOn = false;
   parts.before.push_back(fmt::format("M6 T{}", state_.tool.value()));

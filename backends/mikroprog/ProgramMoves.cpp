@@ -42,6 +42,7 @@ void ProgramWriter::dwell(SourceRange range, Parts& parts) {
       seconds = letter == 'P' || (bare && source_.countsIncrements(letter)) ? *value / 1000 : *value;
     }
   if (given != 1) return cannot(range, "a dwell takes one of P, X and U", "write P with milliseconds");
+  if (*seconds < 0) return cannot(range, "a time below 0", "write the seconds");
   parts.words.push_back("G4 E" + shown(*seconds));
 }
 
@@ -112,33 +113,66 @@ std::string ProgramWriter::placeText(const std::array<std::optional<double>, 3>&
   return out;
 }
 
+void ProgramWriter::feedDropped() {
+  if (state_.feed && state_.feedRange.hasPlace() && !diagnostics_.hasErrors())
+    dropped(state_.feedRange, "`F" + numberText(*state_.feed) + "`", "no move takes it");
+}
+
+bool ProgramWriter::feed(std::optional<double>& out) {
+  const ir::Word* const word = find('F');
+  if (word == nullptr) return true;
+  if (ir::numberWithoutPoint(word->value) != nullptr && state_.perRevolution.value_or(true) &&
+      source_.decimal == stdlib::DecimalMode::Increment) {
+    cannot(word->range, "what F counts without a point is not known in feed per revolution",
+           "write the point");
+    return false;
+  }
+  out = take('F');
+  if (out && *out <= 0) {
+    cannot(word->range, "a feed is above 0", "write the feed");
+    return false;
+  }
+  if (!out) return false;
+  feedDropped();
+  state_.feed = out;
+  state_.feedRange = word->range;
+  state_.feedLost = false;
+  return true;
+}
+
+bool ProgramWriter::motionKnown(SourceRange range) {
+  if (state_.motion == Function::ThreadingCycle)
+    cannot(range,
+           "it is a pass of the thread cycle that is in force, and how the thread runs out of it is a "
+           "parameter of its control",
+           "write its passes as G32");
+  else if (!state_.refusedMotion.empty())
+    cannot(range, fmt::format("it goes on with `{}`, which has no counterpart", state_.refusedMotion),
+           "write its moves as blocks");
+  else if (!state_.motion)
+    cannot(range, "which motion is in force here is not known", "write G0, G1, G2 or G3 in the block");
+  return !refused_;
+}
+
 void ProgramWriter::move(SourceRange range, Parts& parts) {
   std::optional<double> feed;
-  if (const ir::Word* word = find('F')) {
-    if (ir::numberWithoutPoint(word->value) != nullptr && state_.perRevolution.value_or(false) &&
-        source_.decimal == stdlib::DecimalMode::Increment)
-      return cannot(word->range, "what F counts without a point is not known in feed per revolution",
-                    "write the point");
-    feed = take('F');
-    if (!feed) return;
-  }
-  if (feed) state_.feed = feed;
-  if (!hasAxes() && find('I') == nullptr && find('J') == nullptr && find('K') == nullptr) {
-    return;
-  }
-  if (!state_.motion)
-    return cannot(range, "which motion is in force here is not known", "write G0, G1, G2 or G3 in the block");
-  if (state_.motion == Function::ThreadingCycle)
-    return cannot(range,
-                  "it is a pass of the thread cycle that is in force, and how the thread runs out of it is a "
-                  "parameter of its control",
-                  "write its passes as G32");
+  if (!this->feed(feed)) return;
+  if (!hasAxes() && find('I') == nullptr && find('J') == nullptr && find('K') == nullptr) return;
+  if (!motionKnown(range)) return;
   parts.moves = true;
   std::array<std::optional<double>, 3> to = state_.at;
   std::string named;
   if (!target(to, named)) return;
   const Function motion = *state_.motion;
   const bool feeds = motion != Function::Rapid && motion != Function::Thread;
+  if (feeds && state_.feedLost)
+    return cannot(range, "which feed is in force here is not known: its F is in no move before",
+                  "write F in the block");
+  if (std::exchange(state_.inThread, motion == Function::Thread) && motion == Function::Thread)
+    return cannot(range,
+                  "a pass that goes on from the block before it, and here each G33 waits for the mark of the "
+                  "spindle",
+                  "write it as one pass");
   const std::string at = placeText(to, named),
                     f = feeds && state_.feed ? " F" + shown(*std::exchange(state_.feed, std::nullopt)) : "";
   switch (motion) {
@@ -171,6 +205,8 @@ std::optional<double> ProgramWriter::arcRadius(SourceRange range,
     cannot(range, what, instead);
     return std::nullopt;
   };
+  if (!state_.plane)
+    return refused("which plane is in force here is not known", "write G17, G18 or G19 in the block");
   if (!to[first] || !to[second] || !state_.at[first] || !state_.at[second])
     return refused("where the arc begins or ends is not known here", "write both coordinates before it");
   if (find('R') != nullptr) {
@@ -218,6 +254,7 @@ void ProgramWriter::thread(SourceRange range, const std::array<std::optional<dou
       (!state_.at[0] || std::abs(*to[0] - *state_.at[0]) > kSameNumber))
     return cannot(range, "along which axis K counts the pitch of a taper is not stated",
                   "write a thread along Z alone");
+  state_.feedRange = {}; // K is written
   parts.words.push_back(fmt::format("G33{} K{}", placeText(to, named), shown(state_.cycleTaper)));
   state_.at = to;
 }

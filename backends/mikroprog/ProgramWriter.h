@@ -9,6 +9,7 @@
 #include <deque>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -30,11 +31,21 @@ private:
   // Of a block: what is written before its move, with it, after it.
   struct Parts {
     std::vector<std::string> before, words, after;
-    bool moves = false;               // a motion is in the block
+    bool moves = false; // a motion is in the block
+    bool spindle = false, coolant = false;
     std::optional<SourceRange> order; // of a T, whose place in the block is not certain
   };
 
   void forget();
+
+  // What subprograms of the file may leave in force.
+  struct Leaves {
+    bool speed = false, tool = false, feed = false;
+    std::set<stdlib::Function> modes;
+  };
+  const Leaves& leaves();
+  const stdlib::CodeInfo* codeOf(const ir::Word& word) const; // of a G or M with a number
+
   void cannot(SourceRange range, const std::string& what, const std::string& instead);
   void dropped(SourceRange range, const std::string& what, const std::string& why);
   static std::string plain(const std::string& bytes);
@@ -47,6 +58,9 @@ private:
   void add(const std::string& text) { sheet_->add(text, origin_, std::exchange(comment_, "")); }
 
   void call(const ir::Call& call, SourceRange range);
+  // Its ways count from where the tool is at the call, and coordinates are absolute here.
+  bool goesByWays(const ir::Program& program) const;
+  void callInPlace(const ir::Program& program, int times, SourceRange range);
 
   // ---- values
 
@@ -88,11 +102,17 @@ private:
 
   void reference(SourceRange range, Parts& parts);
 
+  // F of the block. false: reported.
+  bool feed(std::optional<double>& out);
+  void feedDropped(); // one that no move takes
+
   // Where the block ends along each axis that it names. false: reported.
   bool target(std::array<std::optional<double>, 3>& to, std::string& named);
 
   std::string placeText(const std::array<std::optional<double>, 3>& to, std::string_view named);
 
+  // Why the motion in force can't be written. false: reported.
+  bool motionKnown(SourceRange range);
   void move(SourceRange range, Parts& parts);
 
   std::string_view arcAxes() const;
@@ -117,6 +137,14 @@ private:
   Sheet* sheet_ = nullptr;
   std::map<std::uint64_t, Mark> marks_; // of subprograms, by number
   std::vector<const ir::Program*> called_;
+  std::map<std::uint64_t, Inherited> inherited_; // by subprograms, by number
+  std::set<std::uint64_t> written_;
+  std::optional<Leaves> leaves_;
+  bool callRefused_ = false;
+  std::set<std::uint64_t> inPlace_; // numbers of subprograms that are written in place
+  std::size_t depth_ = 0;           // of calls in place
+  std::size_t blocksInPlace_ = 0;
+  bool programEnded_ = false;
   ir::Origin origin_;
   std::string comment_; // of the block, until its first line is written
   const std::vector<ir::Word>* words_ = nullptr;

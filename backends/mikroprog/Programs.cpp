@@ -17,7 +17,6 @@ using stdlib::Function;
 
 namespace {
 
-constexpr double kMostRepeats = 50;
 constexpr std::uint32_t kStep = 10; // of block numbers
 
 ir::Origin originOf(const ir::ProgramStatement& statement) {
@@ -58,11 +57,14 @@ std::optional<std::vector<EmittedLine>> ProgramWriter::run() {
     sheet_->place(marks_.at(program->number));
     for (const std::string& title : program->titleComments)
       sheet_->comment(plain(title), {});
+    static_cast<Inherited&>(state_) = inherited_.at(program->number);
     forget();
+    written_.insert(program->number);
     body(*program, true);
   }
   for (const ir::Program& program : file_.programs)
-    if (&program != &main && !marks_.contains(program.number))
+    if (!callRefused_ && &program != &main && !marks_.contains(program.number) &&
+        !inPlace_.contains(program.number))
       cannot(program.range, "this program is not called by the first one of its file",
              "convert it from a file of its own");
   if (diagnostics_.hasErrors()) return std::nullopt;
@@ -99,6 +101,7 @@ std::string ProgramWriter::plain(const std::string& bytes) {
 
 void ProgramWriter::body(const ir::Program& program, bool subprogram) {
   ended_ = false;
+  if (depth_ == 0) programEnded_ = false;
   const auto& body = program.body;
   for (std::size_t i = 0; i < body.size();) {
     const std::uint32_t block = body[i].origin.block;
@@ -111,6 +114,11 @@ void ProgramWriter::body(const ir::Program& program, bool subprogram) {
       alone = alone && (text != nullptr || std::holds_alternative<ir::Label>(body[end].node));
     }
     const ir::Origin origin = originOf(body[i]);
+    if (ended_ && !alone) {
+      dropped(origin.range(), "the block", "the program has ended before it");
+      i = end;
+      continue;
+    }
     if (alone) sheet_->comment(comment, origin);
     comment_ = alone ? "" : comment;
     for (; i < end; ++i)
@@ -140,36 +148,12 @@ void ProgramWriter::statement(const ir::ProgramStatement& statement, bool subpro
                         exit.block ? "M17 goes back to after its call alone"
                                    : "M99 of a main program begins it anew",
                         exit.block ? "take the P away" : "end it by M30");
-        add("M17");
+        if (depth_ == 0) add("M17");
+        if (!comment_.empty()) sheet_->comment(std::exchange(comment_, ""), origin_);
         ended_ = true;
       },
       [&](const ir::OneOf<ir::Jump, ir::Branch, ir::Store, ir::JumpTo, ir::Loop, ir::LoopEnd, ir::Raise,
                           ir::Notice, ir::Port, ir::Print, ir::NameVariables> auto&) { macro(); });
-}
-
-void ProgramWriter::call(const ir::Call& call, SourceRange range) {
-  const double* const number = call.program ? ir::constantValue(call.program) : nullptr;
-  const double repeats = !call.repeats                     ? 1
-                         : ir::constantValue(call.repeats) ? *ir::constantValue(call.repeats)
-                                                           : 0;
-  if (call.kind != ir::CallKind::Subprogram || number == nullptr)
-    return cannot(range, "programs take no arguments here",
-                  "`--var N=VALUE` runs the program, and writes the blocks of the run");
-  const auto program =
-      std::find_if(file_.programs.begin(), file_.programs.end(), [&](const ir::Program& one) {
-        return static_cast<double>(one.number) == *number && one.number != 0;
-      });
-  if (program == file_.programs.end() || program == file_.programs.begin())
-    return cannot(range, fmt::format("O{:04} is no subprogram of this file", *number),
-                  "write it below the program that calls it");
-  if (!(repeats >= 1 && repeats <= kMostRepeats))
-    return cannot(range, "how often H of G26 repeats is not stated (Q8), so repeats are written as calls",
-                  fmt::format("call it at most {} times", kMostRepeats));
-  const auto [mark, added] = marks_.emplace(program->number, static_cast<Mark>(marks_.size()));
-  if (added) called_.push_back(&*program);
-  for (int i = 0; i < static_cast<int>(repeats); ++i)
-    sheet_->jump("G26", mark->second, "", origin_, std::exchange(comment_, ""));
-  forget();
 }
 
 std::optional<double> ProgramWriter::number(const ir::Word& word) {
@@ -216,6 +200,9 @@ void ProgramWriter::block(const ir::NcBlock& block, SourceRange range) {
   for (const ir::Word& word : block.words)
     if (word.address == 'G') good = code(word, parts) && good;
   if (!good) return; // its other words would be refused for want of the code
+  if (find('S') != nullptr)
+    if (const double* const value = ir::constantValue(find('S')->value); value != nullptr && *value < 0)
+      return cannot(find('S')->range, "a speed below 0", "write the speed, and M4 for the other way");
   if (source_.turning && find('T') != nullptr) tool(*find('T'), parts);
   for (const ir::Word& word : block.words)
     if (word.address == 'M') auxiliary(word, parts);
@@ -250,6 +237,7 @@ void ProgramWriter::block(const ir::NcBlock& block, SourceRange range) {
     if (one == "M0") comment_ = std::exchange(read, "");
     add(one);
   }
+  if (ended_) feedDropped();
   if (!comment_.empty())
     sheet_->comment(std::exchange(comment_, ""), origin_); // of a block that wrote nothing
 }

@@ -72,6 +72,21 @@ const std::vector<Fragment>& fragments() {
        "",
        ""},
       {"one step back", "G0 X20. Z0.\nG1 W-5. F0.1\nU2.\nG0 U10. W5.\n", {}, "", "G0 X32 Z0"},
+      {"repeats in P", "M98 P20002\nM98 P2\n", {}, "O2\nG0 X30. Z2.\nG1 Z-5. F0.1\nM99\n", "G26 L1000"},
+      {"the same system again", "G54\nT0101\nG0 X30. Z2.\nG54\nT0202\nG0 X30. Z2.\n", {}, "", "M6 T2"},
+      {"holes of a cycle",
+       "G0 X0 Z5.\nG83 Z-30. Q5000 F0.1\nZ-40.\nG80\nG0 Z50.\nG84 Z-20. F1.\nZ-21.\nG0 Z5.\n",
+       {2, 3, 6, 7}},
+      {"a variable lead", "S500 M3\nG0 X20. Z5.\nG34 Z-20. F1. K0.1\nZ-30.\nG0 X60.\n", {3, 4}},
+      {"a way after the turret has turned",
+       "T0101\nG0 X100. Z100.\nT0202\nG0 U-10.\nW-5.\nG0 X50. Z2.\nT0202\nW-5.\n",
+       {4, 5}},
+      {"a cycle after the turret has turned", "G0 X64. Z2.\nT0202\nG90 X56. Z-40. F0.25\n", {3}},
+      {"a thread over two blocks", "S500 M3\nG0 X30. Z5.\nG32 Z-10. F2.\nZ-20.\nG0 X40.\n", {4}},
+      {"speed, feed and time below what there is",
+       "S-5\nG4 P-1\nG0 X30. Z5.\nG1 Z0 F0.\nG1 Z-1. F-.2\nM3 S-9\n",
+       {1, 2, 4, 5, 6}},
+      {"two codes for one thing", "S300\nM5 M3\nM8 M9\nM3 M4\nM5 M9\n", {2, 3, 4}},
   };
   return all;
 }
@@ -147,4 +162,73 @@ TEST_CASE("mikroprog fragments: every word is in the result, in a note or in an 
     }
   }
   CHECK(words > 80);
+}
+
+TEST_CASE(
+    "mikroprog fragments: a subprogram has the speed, the feed and the modes of its calls, or says its own") {
+  const auto errors = [](const std::string& text) { return converted("O1\n" + text).errorLines(); };
+  // The speed of the call, not that at the end of the program.
+  const Converted one = converted("O1\nS700 M3\nM5\nM98 P2\nS900 M3\nM30\nO2\nM3\nG0 X20.\nM99\n");
+  REQUIRE(one.lines);
+  CHECK(one.text().find("N1000 M3 S700") != std::string::npos);
+  CHECK(errors("S700 M3\nM5\nM98 P2\nS900\nM98 P2\nM30\nO2\nM3\nG0 X20.\nM99\n") == Lines{9});
+  // What it leaves.
+  CHECK(errors("S700 M3\nM5\nM98 P2\nM3\nM30\nO2\nM3 S200\nG0 X20.\nM99\n") == Lines{5});
+  CHECK(errors("S700 M3\nM98 P2\nM3\nM30\nO2\nG0 X20.\nM99\n").empty());
+  // An F that no move before the call could take.
+  const std::string cut = "M30\nO2\nG1 X20.\nM99\n";
+  CHECK(errors("G0 X40. Z5.\nG1 X39. F.1\nM98 P2\n" + cut).empty());
+  CHECK(errors("G0 X40. Z5.\nG1 X39. F.1\nF.3\nM98 P2\n" + cut) == Lines{8});
+  CHECK(errors("G0 X40. Z5.\nM98 P2\nG1 X39.\nM30\nO2\nG0 X20. Z5.\nF.2\nM99\n") == Lines{4});
+  CHECK(errors("G0 X40. Z5.\nM98 P2\nG1 X39. F.1\nM30\nO2\nG0 X20. Z5.\nF.2\nM99\n").empty());
+  // Modes.
+  const std::string whole = "G0 X40. Z5.\nM98 P2\nG1 X5. F10\nM30\nO2\n";
+  CHECK(errors("G98\n" + whole + "G98\nM99\n").empty());
+  CHECK(errors("G98\n" + whole + "G99\nM99\n") == Lines{5});
+  const std::string arc = "M30\nO2\nG0 X30. Z0.\nG2 X40. Z-5. R5. F.1\nM99\n";
+  CHECK(errors("M98 P2\n" + arc).empty());
+  CHECK(errors("M98 P2\nG17\nM98 P2\n" + arc) == Lines{8});
+}
+
+TEST_CASE("mikroprog fragments: a subprogram of ways is written in place of its calls") {
+  const Converted grooves = converted(
+      "O1\nG0 X40. Z0.\nM98 P20002\nG1 X30. F.1\nM30\nO2\n(GROOVE)\nG0 W-4.\nG1 X36. F.1\nG0 U4.\nM99\n");
+  REQUIRE(grooves.lines);
+  CHECK(grooves.text().find(";GROOVE\nN30 G0 Z-4\nN40 G1 X36 F0.1\nN50 G0 X40\n;GROOVE\nN60 G0 Z-8\n") !=
+        std::string::npos);
+  CHECK(grooves.text().find("M17") == std::string::npos);
+  CHECK(converted("O1\nM98 P2\nM30\nO2\nG0 U1.\nM99\n").errorLines() == Lines{5});
+  // One that ends the program, one that calls itself, one without an end.
+  const Converted ends = converted("O1\nG0 X4.\nM98 P30002\nG0 X9.\nM30\nO2\nG0 U1.\nM30\n");
+  REQUIRE(ends.lines);
+  CHECK(ends.text().find("G0 X5\nN40 M30\n") != std::string::npos);
+  CHECK(ends.text().find("X9") == std::string::npos);
+  CHECK(converted("O1\nG0 X4.\nM98 P2\nM30\nO2\nG0 U1.\nM98 P2\nM99\n").errorLines() == Lines{7});
+  CHECK_FALSE(converted("O1\nG0 X4.\nM98 P2\nM30\nO2\nG0 U1.\n").lines);
+  // Within one that is called.
+  const Converted nested = converted("O1\nM98 P2\nM30\nO2\nG0 X5. Z5.\nM98 P3\nM99\nO3\nG0 W-1.\nM99\n");
+  REQUIRE(nested.lines);
+  CHECK(nested.text().find("N1000 G0 X5 Z5\nN1010 G0 Z4\nN1020 M17\n") != std::string::npos);
+  const Converted mill =
+      converted("O1\nG90 G0 X4. Y0\nM98 P2\nG0 X0\nM30\nO2\nG91 G0 X2.\nG90\nM99\n", false);
+  REQUIRE(mill.lines);
+  CHECK(mill.text().find("G0 X6\n") != std::string::npos);
+}
+
+TEST_CASE("mikroprog fragments: what no move and no way leads to is left out with a note") {
+  const auto notes = [](const std::string& text) {
+    const Converted one = converted(text);
+    REQUIRE(one.lines);
+    std::string out;
+    for (const Diagnostic& d : one.diagnostics.all())
+      out += d.message + "\n";
+    return out + one.text();
+  };
+  const std::string after = notes("O1\nG0 X1.\nM30\nG0 X5.\n");
+  CHECK(after.find("the program has ended before it") != std::string::npos);
+  CHECK(after.find("X5") == std::string::npos);
+  CHECK(notes("O1\nG0 X1. F.2\nM30\n").find("`F0.2` is left out") != std::string::npos);
+  CHECK(notes("O1\nG0 X1. F.2\nG1 X2. F.3\nM30\n").find("`F0.2` is left out") != std::string::npos);
+  CHECK(notes("O1\nG0 X1. F.2\nG1 X2.\nM30\n").find("left out") == std::string::npos);
+  CHECK(notes("O1\nS5 M3\nG0 X1. Z2.\nG32 Z1. F2.\nM30\n").find("left out") == std::string::npos);
 }
