@@ -183,6 +183,7 @@ private:
         },
         [&](const ir::Return&) { toEnd(origin); },
         [&](const ir::OpaqueBlock& node) {
+          if (isLength(node)) return length(node, range);
           s_.refuse<diag::OpaqueBlockRefused>(range, addresses(node), "the source's control",
                                               s_.control.title);
         },
@@ -221,6 +222,27 @@ private:
       out += (out.empty() ? "" : " ") + std::string(1, word.address) + (value ? numberText(*value) : "..");
     }
     return out;
+  }
+
+  // G43 H1 D1: M6 puts the correction of a tool in force, and D is for G41 and G42, which are refused.
+  static bool isLength(const ir::OpaqueBlock& block) {
+    bool code = false, offset = false;
+    for (const ir::Word& word : block.words) {
+      const double* const value = word.value == nullptr ? nullptr : ir::constantValue(word.value);
+      if (value == nullptr) return false;
+      const bool isCode = word.address == 'G' && *value == 43;
+      code = code || isCode;
+      offset = offset || word.address == 'H';
+      if (!isCode && word.address != 'H' && word.address != 'D') return false;
+    }
+    return code && offset;
+  }
+  void length(const ir::OpaqueBlock& block, SourceRange range) {
+    const std::string text = addresses(block);
+    left(range, "`" + text + "`",
+         "M6 puts the correction of the tool in the spindle in force, and that has to be the probe's");
+    if (s_.remarked.insert(text).second)
+      s_.remarks.push_back(text + ": THE CORRECTION OF THE PROBE IS THAT OF M6");
   }
 
   void move(const ir::Move& move, const ir::Origin& origin) {

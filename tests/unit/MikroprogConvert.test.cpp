@@ -1,8 +1,10 @@
 // Plain programs for Mikroprog: each word is in the result, in a note or in an error at its place, and a run
 // of the result does what a run of the source does.
+#include "DataFolder.h"
 #include "MikroprogConversion.h"
 #include "sim/machine/Compile.h"
 #include "sim/machine/Trace.h"
+#include "tests/GoldenRunner.h"
 
 #include <algorithm>
 
@@ -200,4 +202,30 @@ TEST_CASE("mikroprog programs: the result runs as the source does") {
     run.machine.setTrace(nullptr);
   }
   CHECK(kept(source) == kept(target));
+}
+
+TEST_CASE(
+    "mikroprog: all examples of the post for mills convert, and lint has nothing against the programs") {
+  const DataFolder folder;
+  const auto example = [](const char* name) { return (root() / "examples" / name).generic_string(); };
+  for (const char* cycle : {"surface-x", "surface-y", "surface-z", "corner-xyz", "bore"}) {
+    CAPTURE(cycle);
+    std::vector<std::string> arguments = {"convert",     example(cycle),
+                                          "--prog",      example("mill-post.txt"),
+                                          "--to",        "mikroprog",
+                                          "--control",   "mikroprog-mill",
+                                          "--assume",    "Q7,Q10,Q13",
+                                          "--host",      "tool_radius=3,overtravel=5,return_feed=1000",
+                                          "--host",      "start_x=0",
+                                          "--host",      "start_y=0,start_z=60",
+                                          "--clearance", "5",
+                                          "-o",          "A.SUF"};
+    if (cycle == std::string("surface-z")) arguments.insert(arguments.end(), {"--set", "D=-10"});
+    const auto converted = runDotek(arguments, folder.path());
+    CHECK_MESSAGE(converted.status == 0, converted.out);
+    const auto linted = runDotek(
+        {"lint", "A.SUF", "--control", "mikroprog-mill", "--ignore", "suf-datum-lasts,suf-parameter-use"},
+        folder.path());
+    CHECK_MESSAGE(linted.out.empty(), linted.out);
+  }
 }

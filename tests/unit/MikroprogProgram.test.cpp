@@ -176,6 +176,20 @@ TEST_CASE("mikroprog: what the control cannot say is refused") {
   CHECK(codesOf(Statements(ir::SetMode{ir::Mode::CannedCycleOff, nullptr}).cycle) ==
         std::set<std::string>{"mode-dropped"});
   CHECK(codesOf(Statements(ir::OpaqueBlock{}).cycle) == std::set<std::string>{"opaque-block-refused"});
+  const auto opaque = [](std::vector<std::pair<char, int>> words) {
+    ir::OpaqueBlock block;
+    for (const auto& [letter, value] : words)
+      block.words.push_back({letter, number(value), {}});
+    return codesOf(Statements(std::move(block)).cycle);
+  };
+  // The length of the probe is that of M6; D without G41 and G42 changes nothing.
+  CHECK(opaque({{'G', 43}, {'H', 1}, {'D', 1}}) == std::set<std::string>{"mode-dropped"});
+  CHECK(opaque({{'G', 43}, {'H', 1}}) == std::set<std::string>{"mode-dropped"});
+  const std::set<std::string> kept = {"opaque-block-refused"};
+  CHECK(opaque({{'G', 43}}) == kept);
+  CHECK(opaque({{'G', 44}, {'H', 1}}) == kept);
+  CHECK(opaque({{'G', 43}, {'H', 1}, {'Z', 50}}) == kept);
+  CHECK(opaque({{'G', 41}, {'D', 1}, {'H', 1}}) == kept);
   Statements branch;
   const ir::LabelId label = branch.cycle.addLabel({"on", {}});
   branch.add(ir::Branch{ir::compare(ir::Relation::Less, ir::machineVariable(number(500)), number(1)), label});

@@ -406,6 +406,8 @@ private:
       return told("result-dropped") && says(word.value.substr(0, word.value.find('=')) + " NOT KEPT");
     if (control && word.letter == 'M' && (word.value == "31" || word.value == "32"))
       return told("probe-power-dropped") && says(word.value == "31" ? "PROBE ON" : "PROBE OFF");
+    if (control && hasCode(43) && std::string_view("GHD").find(word.letter) != std::string_view::npos)
+      return told("mode-dropped", word.spelled) && fileSays(word.spelled);
     static const std::map<std::string, std::string_view> kModes = {
         {"0", "a motion code"}, {"1", "a motion code"}, {"80", "canned cycles"},
         {"90", "absolute"},     {"91", "incremental"},  {"94", "feed per minute"}};
