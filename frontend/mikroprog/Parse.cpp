@@ -115,8 +115,36 @@ private:
     if (const std::string_view why = fanucSyntax(text); !why.empty())
       diagnostics_.report<diag::SufOtherControl>(where, shown, why);
     else
-      diagnostics_.report<diag::SufWord>(where, shown);
+      diagnostics_.report<diag::SufWord>(where, shown, advice(text));
     return false;
+  }
+
+  static std::string advice(std::string_view word) {
+    if (word.size() > 1 && word[0] >= 'a' && word[0] <= 'z' &&
+        word.find_first_of("0123456789") != word.npos) {
+      std::string capitals(word);
+      for (char& c : capitals)
+        if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+      return fmt::format("whether small letters are addresses is not known (Q5); write `{}`", capitals);
+    }
+    return "a block holds addresses with numbers, `P1=value`, `@file` and a comment after `;`";
+  }
+
+  // `X 10`: where a number follows the blanks, the rest of the line is read as if they were not there.
+  bool apart(std::size_t from) {
+    const std::size_t end = at_;
+    blanks();
+    Value out;
+    if (at_ == end || !value(out)) {
+      at_ = end;
+      return false;
+    }
+    line_.unread = true;
+    diagnostics_.report<diag::SufWord>(
+        range(from), text_.substr(from, at_ - from),
+        fmt::format("whether blanks may be between an address and its number is not known (Q1); write `{}{}`",
+                    text_[from], text_.substr(at_ - out.digits.size(), out.digits.size())));
+    return true;
   }
 
   bool item() {
@@ -143,6 +171,7 @@ private:
     }
     Word word;
     word.address = text_[at_++];
+    if ((at(' ') || at('\t')) && apart(from)) return true;
     if (!value(word.value)) return fail(rest(from));
     word.range = range(from);
     line_.add(std::move(word));

@@ -9,8 +9,8 @@ void checkProgram(const mikroprog::Reading& reading, Report& report) {
   mikroprog::walkMotion(reading, [&](const mikroprog::Block& block, const mikroprog::MotionState& state) {
     if (block.does("incremental")) told = false;
     if (state.absolute.value_or(true)) return;
-    if (reading.control.isDiameter('X') && mikroprog::onlyMoves(block) && block.line->find('X') != nullptr &&
-        !told) {
+    if (reading.control.isDiameter('X') && state.radius != true && mikroprog::onlyMoves(block) &&
+        block.line->find('X') != nullptr && !told) {
       told = true;
       report.at(
           block.line->find('X')->range,
