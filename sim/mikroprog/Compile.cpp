@@ -27,7 +27,7 @@ public:
     for (const auto& [name, program] : others)
       use(*program);
     const auto* const state = profile.control.question(kStateOfProgram);
-    if (uses("run-program"))
+    if (uses("run-program") || uses("run-macro"))
       chain_ = std::make_shared<Chain>(profile.control, state != nullptr && state->assumed);
   }
 
@@ -366,6 +366,10 @@ private:
       emit(Op::LeavePlace, 0, text("M17 without a call"));
       return;
     case Flow::Program: return runProgram(block);
+    case Flow::Macro:
+      // How it ends is a part of the question.
+      if (!assumes(kStateOfProgram)) return refuse(whyNotFollowed(function));
+      return runNamed(macroFile(function), block);
     case Flow::End:
       run([chain = chain_](Machine& machine, double* cells) { return chain->leave(machine, cells); });
       emit(Op::LeavePlace, 0, text("the end of a program that nothing runs"));
@@ -410,14 +414,16 @@ private:
 
   // G28.
   void runProgram(const ir::NcBlock& block) {
-    const auto name = fileOf(block);
-    if (!name) return;
-    const auto other = others_.find(*name);
+    if (const auto name = fileOf(block)) runNamed(*name, block);
+  }
+
+  void runNamed(const std::string& name, const ir::NcBlock& block) {
+    const auto other = others_.find(name);
     if (other == others_.end())
-      return refuse(fmt::format("no program `{}` is in the folder of this one", *name));
+      return refuse(fmt::format("no program `{}` is in the folder of this one", name));
     if (other->second == &main_)
       return refuse(
-          fmt::format("`{}` is the program that runs, and no source says what G28 makes of that", *name));
+          fmt::format("`{}` is the program that runs, and no source says what G28 makes of that", name));
     OpenCall call{0, other->second, std::nullopt};
     if (const ir::Word* const word = find(block, 'L')) {
       call.number = wholeOf(*word);

@@ -1,6 +1,7 @@
 #include "sim/mikroprog/Dialect.h"
 
 #include "ir/Match.h"
+#include "sim/mikroprog/Functions.h"
 
 #include <algorithm>
 #include <charconv>
@@ -228,16 +229,18 @@ std::vector<std::string> programsRunBy(const ir::Program& program, const stdlib:
   std::vector<std::string> out;
   for (const auto& statement : program.body) {
     const auto* block = std::get_if<ir::NcBlock>(&statement.node);
-    const ir::Word* const file = block == nullptr ? nullptr : find(*block, '@');
-    const auto* name = file == nullptr ? nullptr : std::get_if<ir::Constant>(&file->value->node);
-    if (name == nullptr || std::find(out.begin(), out.end(), name->digits) != out.end()) continue;
+    if (block == nullptr) continue;
+    const ir::Word* const file = find(*block, '@');
+    const auto* named = file == nullptr ? nullptr : std::get_if<ir::Constant>(&file->value->node);
     for (const ir::Word& word : block->words) {
-      const auto number = word.address == 'G' ? wholeOf(word) : std::nullopt;
-      const auto* function = number ? control.find('G', *number) : nullptr;
-      if (function != nullptr && function->function == "run-program") {
-        out.push_back(name->digits);
-        break;
-      }
+      const bool isCode = word.address == 'G' || word.address == 'M';
+      const auto number = isCode ? wholeOf(word) : std::nullopt;
+      const auto* function = number ? control.find(word.address, *number) : nullptr;
+      if (function == nullptr) continue;
+      std::string name;
+      if (function->function == "run-program" && named != nullptr) name = named->digits;
+      if (function->function == "run-macro") name = macroFile(*function);
+      if (!name.empty() && std::find(out.begin(), out.end(), name) == out.end()) out.push_back(name);
     }
   }
   return out;

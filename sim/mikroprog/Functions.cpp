@@ -36,10 +36,15 @@ Flow flowOf(std::string_view function) {
       {"output-on", Flow::Output},
       {"output-off", Flow::Output},
       {"run-program", Flow::Program},
+      {"run-macro", Flow::Macro},
   };
   for (const auto& [name, flow] : kFlows)
     if (name == function) return flow;
   return Flow::None;
+}
+
+std::string macroFile(const stdlib::MikroprogFunction& function) {
+  return function.code() + ".MAC";
 }
 
 bool isSetting(std::string_view function) {

@@ -30,10 +30,12 @@ enum class Flow : std::uint8_t {
   Reference,
   Output,
   Program, // another one
+  Macro,   // M61.MAC
   End,     // of a program that another one runs
 };
 
 Flow flowOf(std::string_view function);
+std::string macroFile(const stdlib::MikroprogFunction& function); // of M61 to M68
 // In force for the words of its own block.
 bool isSetting(std::string_view function);
 // Moves and decides nothing.

@@ -181,6 +181,18 @@ TEST_CASE("mikroprog machine: a profile that answers Q25 takes the state over") 
             .trace == "feed X5 Z0 F100\nfeed X5 Z1 F100\nfeed X5 Z2 F100\nfeed X5 Z4 F100\nend\n");
 }
 
+TEST_CASE("mikroprog machine: M61 runs M61.MAC where the profile answers Q25, up to its M30") {
+  const std::vector<std::pair<std::string, std::string>> files = {
+      {"A.SUF", "N10 G0 X5\nN20 M61\nN30 G0 Z3\nN40 M62\nN50 M30\n"},
+      {"M61.MAC", "N10 G0 Z1\nN20 G26 L40\nN30 M30\nN40 G0 Z2\nN50 M17\n"}};
+  CHECK(has(run(files, lathe()).why, "(Q25)"));
+  auto control = lathe();
+  control.questions.push_back({25, "the state is that of the caller", true});
+  const Ran ran = run(files, control);
+  CHECK(ran.trace == "rapid X5 Z0\nrapid X5 Z1\nrapid X5 Z2\nrapid X5 Z3\n");
+  CHECK(has(ran.why, "no program `M62.MAC`"));
+}
+
 TEST_CASE("sim runs the programs of the folder that G28 names, and reports what is wrong in them") {
   const DataFolder folder;
   folder.write("A.SUF", "N10 G0 X30 Z2\nN20 G28 @B.SUF\nN30 M30\n");
