@@ -93,8 +93,8 @@ bool ProgramWriter::code(const ir::Word& word, Parts& parts) {
   case Function::ScalingOff: return out("this control has nothing that it would end");
   case Function::Absolute: state_.incremental = false; return out("coordinates are written absolute");
   case Function::Incremental: state_.incremental = true; return out("coordinates are written absolute");
-  case Function::FeedPerMinute: state_.perRevolution = false; return says("G94");
-  case Function::FeedPerRevolution: state_.perRevolution = true; return says("G95");
+  case Function::FeedPerMinute: unit(false); return says("G94");
+  case Function::FeedPerRevolution: unit(true); return says("G95");
   case Function::SurfaceSpeedOff: return out("S counts turns a minute here until G96");
   case Function::SurfaceSpeedOn:
     return no("here it has no surface speed, and takes the present speed and diameter for its base (Q27)",
@@ -117,6 +117,16 @@ bool ProgramWriter::code(const ir::Word& word, Parts& parts) {
     return no("no function of this control does it that a source describes",
               "write its moves as blocks (`dotek flatten` writes those of a program that runs)");
   }
+}
+
+// What an F of the other unit is then is not certain.
+void ProgramWriter::unit(bool perRevolution) {
+  if (state_.perRevolution != perRevolution) {
+    feedDropped();
+    state_.feed.reset();
+    state_.feedLost = true;
+  }
+  state_.perRevolution = perRevolution;
 }
 
 // G50 S: without G96, and where no S is above it, it changes nothing.

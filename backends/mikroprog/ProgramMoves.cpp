@@ -166,7 +166,8 @@ void ProgramWriter::move(SourceRange range, Parts& parts) {
   const Function motion = *state_.motion;
   const bool feeds = motion != Function::Rapid && motion != Function::Thread;
   if (feeds && state_.feedLost)
-    return cannot(range, "which feed is in force here is not known: its F is in no move before",
+    return cannot(range,
+                  "which feed is in force here is not known: no move before has it, or the unit has changed",
                   "write F in the block");
   if (std::exchange(state_.inThread, motion == Function::Thread) && motion == Function::Thread)
     return cannot(range,

@@ -21,7 +21,7 @@ struct Inherited {
   std::optional<double> speed = {};
   std::optional<std::uint32_t> tool = {}; // that T has named last, in the spindle or to come
   bool lengthOn = false;
-  bool feedLost = false; // the F in force was said where no move could be written with it
+  bool feedLost = false; // the F in force is in no move that is written, or of the other unit
 
   bool operator==(const Inherited&) const = default;
 

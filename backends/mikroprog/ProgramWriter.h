@@ -79,6 +79,8 @@ private:
   // false: the block is refused.
   bool code(const ir::Word& word, Parts& parts);
 
+  void unit(bool perRevolution); // of F
+
   // G50 S. false: refused.
   bool clamp(const ir::Word& word, const std::string& name);
 

@@ -43,7 +43,7 @@ std::string wordOf(char letter) {
 }
 
 // Moves that take a feed, and moves that take the code too.
-constexpr const char* kMoves = "G1 X31. Z-3.\nG0 X77.\n";
+constexpr const char* kMoves = "G1 X31. Z-3. F0.7\nG0 X77.\n";
 constexpr const char* kNext = "X31. Z-3.\nG1 X33. Z-4.\nG0 X77.\n";
 
 } // namespace

@@ -86,6 +86,9 @@ const std::vector<Fragment>& fragments() {
       {"speed, feed and time below what there is",
        "S-5\nG4 P-1\nG0 X30. Z5.\nG1 Z0 F0.\nG1 Z-1. F-.2\nM3 S-9\n",
        {1, 2, 4, 5, 6}},
+      {"an F of the other unit",
+       "G0 X9. Z1.\nG1 X8. F.1\nG98\nG1 X7.\nX6. F90.\nG98\nX5.\nG0 X6. F80.\nG99\nG1 X7.\n",
+       {4, 10}},
       {"two codes for one thing", "S300\nM5 M3\nM8 M9\nM3 M4\nM5 M9\n", {2, 3, 4}},
   };
   return all;
