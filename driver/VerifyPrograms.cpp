@@ -3,6 +3,7 @@
 #include "driver/VerifyCases.h"
 #include "support/messages/Commands.h"
 #include "support/messages/Fanuc.h"
+#include "support/messages/Mikroprog.h"
 #include "targets/Conversion.h"
 #include "targets/Target.h"
 #include "targets/Translation.h"
@@ -61,7 +62,14 @@ private:
     convert.common.assume.erase("probe-on");
     const Target* const target = checkedTarget(convert, true, false, "verify",
                                                "what the programs are compared with", session_.diagnostics());
-    if (target != nullptr && target->programs == nullptr && target->writesPrograms)
+    if (target == nullptr || target->programs != nullptr || !target->writesPrograms) return target;
+    if (target->name == "mikroprog")
+      session_.diagnostics().report<diag::MikroprogCannot>(
+          {},
+          "a program for Mikroprog has one run, whose values are fixed, so there is nothing to vary and "
+          "compare",
+          "run source and result by `dotek sim --trace FILE` and compare the traces (docs/mikroprog.md)");
+    else
       session_.diagnostics().report<diag::ProgramTarget>({}, options_.to);
     return target;
   }

@@ -143,7 +143,12 @@ public:
       diagnostics.report<diag::MissingOption>(
           {}, "convert", "--control NAME",
           "the control to write programs for: mikroprog-s280 or mikroprog-mill");
-    if (options_.verify) diagnostics.report<diag::ProgramTarget>({}, options_.to);
+    if (options_.verify)
+      diagnostics.report<diag::MikroprogCannot>(
+          {},
+          "a program for Mikroprog has one run, whose values are fixed, so there is nothing to vary and "
+          "compare",
+          "run source and result by `dotek sim --trace FILE` and compare the traces (docs/mikroprog.md)");
     if (diagnostics.hasErrors()) return false;
     programControl_ = loadMikroprogControl(options_.control, session_);
     return programControl_.has_value();
