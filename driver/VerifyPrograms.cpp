@@ -63,7 +63,7 @@ private:
     const Target* const target = checkedTarget(convert, true, false, "verify",
                                                "what the programs are compared with", session_.diagnostics());
     if (target == nullptr || target->programs != nullptr || !target->writesPrograms) return target;
-    if (target->name == "mikroprog")
+    if (target->fixesValues)
       session_.diagnostics().report<diag::MikroprogCannot>(
           {},
           "a program for Mikroprog has one run, whose values are fixed, so there is nothing to vary and "
