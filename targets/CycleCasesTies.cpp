@@ -42,7 +42,7 @@ public:
     return out;
   }
 
-  bool findsAll(long steps) { return at(steps) && verify::findsAll(*at(steps)); }
+  bool meetsEach(long steps) { return at(steps) && verify::meetsEach(*at(steps)); }
 
 private:
   const std::optional<verify::Record>& at(long steps) {
@@ -88,7 +88,7 @@ void CaseRunner::runAtLimits(const Values& drawn, bool probeOn, CaseResult& resu
     if (turns.size() > kMostTurns) continue; // it goes another way with each value
     for (const long turn : turns) {
       // Where a search ends two macros do not share the last digit.
-      if (!limit.findsAll(turn) || !limit.findsAll(turn + 1)) continue;
+      if (!limit.meetsEach(turn) || !limit.meetsEach(turn + 1)) continue;
       verify::Case met = drawn.drawn;
       met.callers = false;
       met.values[field.name] = limit.value(turn);

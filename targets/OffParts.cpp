@@ -192,7 +192,7 @@ std::vector<verify::Difference> compareTies(const TargetCase& now, const Moving&
   if (turns.size() > kMostTurns) return found;
   for (const long turn : turns) {
     // Where a search ends two macros do not share the last digit.
-    if (!verify::findsAll(*grown.at(turn)) || !verify::findsAll(*grown.at(turn + 1))) continue;
+    if (!verify::meetsEach(*grown.at(turn)) || !verify::meetsEach(*grown.at(turn + 1))) continue;
     grown.look(turn, kTie, [&](const verify::Record& meant, sim::World& world) {
       if (counts(meant)) found = compare(meant, world);
     });

@@ -24,7 +24,7 @@ bool sameWay(const Record& a, const Record& b, bool sameText) {
          std::equal(a.stores.begin(), a.stores.end(), b.stores.begin(), b.stores.end(), sameStore);
 }
 
-bool findsAll(const Record& record) {
+bool meetsEach(const Record& record) {
   return record.alarmKind.empty() &&
          std::all_of(record.measures.begin(), record.measures.end(),
                      [](const Measure& one) { return !one.contacts.empty() || !one.unstated.empty(); });

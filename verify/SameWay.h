@@ -10,6 +10,6 @@ namespace dotek::verify {
 bool sameWay(const Record& a, const Record& b, bool sameText = true);
 
 // Each of its measures has met a surface, and no macro has stopped it.
-bool findsAll(const Record& record);
+bool meetsEach(const Record& record);
 
 } // namespace dotek::verify
