@@ -347,20 +347,46 @@ std::unique_ptr<CaseRunner::Values> CaseRunner::attemptAsIs(const verify::Case& 
   return refusal_.empty() ? std::move(values) : nullptr;
 }
 
-// Where start and travel have to lead to the nominal: changes what is nominal. The path stays as it is.
+namespace {
+
+bool samePath(const verify::DrawnPath& a, const verify::DrawnPath& b) {
+  return std::equal(
+      a.points.begin(), a.points.end(), b.points.begin(), b.points.end(),
+      [](const sim::Point3& one, const sim::Point3& other) { return verify::near(one, other, 1e-9); });
+}
+
+} // namespace
+
+// Where start and travel have to lead to the nominal: changes what is nominal. Where the path moves with it,
+// so does the part.
 bool CaseRunner::leadToNominal(std::unique_ptr<Values>& values) {
   const auto misses = [&](const verify::Case& drawn) { return nominalMisses(drawn); };
-  const std::optional<verify::Case> settled = nominal_->settle(values->drawn, misses);
+  std::vector<const char*> starts;
+  for (const char* start : {"start_x", "start_y"})
+    if (!isGiven(start)) starts.push_back(start);
+  const std::optional<verify::Case> settled = nominal_->settle(values->drawn, starts, misses);
   if (!settled) {
     refusal_ = "no field makes the start and the travel lead to the nominal";
     return false;
   }
-  const std::optional<sim::Part> part = values->part;
+  const std::unique_ptr<Values> before = std::move(values);
   values = check(*settled, false);
   if (!values) return false;
   refusal_ = values->rejection;
-  values->part = part;
-  return !values->rejected;
+  if (values->rejected) return false;
+  if (!values->path || !before->path || samePath(*values->path, *before->path)) {
+    values->part = before->part;
+    return true;
+  }
+  refusal_ = whyNotClear(*values);
+  if (refusal_.empty() && makePart(*values)) {
+    misplace(*values);
+    const double off = plan_.translation ? verify::mostOff(values->path->nominal(), values->drawn.error) : 0;
+    refusal_ = verify::whyNotReached(*values->path, *values->part, probeFor(plan_, values->drawn), off);
+  } else {
+    values->part = plan_.part;
+  }
+  return refusal_.empty();
 }
 
 // By how much each datum moves the zero away from that of the active system, where the part is in its place.

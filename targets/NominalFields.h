@@ -19,10 +19,11 @@ public:
 
   // Start points with no more places than the fields have.
   void roundStart(verify::Case& drawn) const;
-  // The case with these fields changed so that no zero is missed. `misses`: by how much each is, in the order
-  // of the program; nothing: the values are none. nullopt: no fields do that.
+  // The case with these fields changed so that no zero is missed; where no field does it, one of the host
+  // inputs `starts` is. `misses`: by how much each is, in the order of the program; nothing: the values are
+  // none. nullopt: nothing does that.
   std::optional<verify::Case>
-  settle(verify::Case drawn,
+  settle(verify::Case drawn, const std::vector<const char*>& starts,
          const std::function<std::optional<std::vector<double>>(const verify::Case&)>& misses);
 
 private:

@@ -265,7 +265,7 @@ std::optional<Case> Bounds::meet(const Bound& bound, const std::vector<DrawField
     }
     return false;
   };
-  if (meets(own, 1) || meets(-own, own > 0 ? -1 : 1)) return drawn;
+  if (meets(own, 1) || meets(own, -1) || meets(-own, own > 0 ? -1 : 1)) return drawn;
   return std::nullopt;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <set>
+#include <vector>
 
 namespace dotek::lint::rule {
 namespace {
@@ -15,10 +16,33 @@ bool isBuiltIn(std::string_view group) {
   return std::find(kGroups.begin(), kGroups.end(), group) != kGroups.end();
 }
 
+// Where most properties have a group, those that have none.
+void checkGroups(const PostFile& post, const fusion::Node& all, Report& report) {
+  std::vector<const fusion::Node*> without;
+  std::size_t with = 0;
+  for (const fusion::Node* one : all.kids) {
+    if (!one->is(fusion::Kind::Property)) continue;
+    const fusion::Node* const value = fusion::bare(one->kids[1]);
+    if (!value->is(fusion::Kind::Object) || propertyOf(value, "title") == nullptr) continue;
+    if (propertyOf(value, "group") != nullptr)
+      ++with;
+    else if (propertyOf(value, "visible") == nullptr)
+      without.push_back(one);
+  }
+  if (with < 2 || with <= without.size()) return;
+  for (const fusion::Node* one : without)
+    report.at(
+        post.tree.range(*one->kids[0]),
+        "the property `{}` has no `group`, as {} others of the post have: the dialog shows it apart from "
+        "them",
+        keyOf(*one), with);
+}
+
 void check(const Project& project, Report& report) {
   forEachPost(project, [&](const PostFile& post) {
     const fusion::Node* const all = fusion::bare(topLevelValue(post, "properties"));
     if (all == nullptr || !all->is(fusion::Kind::Object)) return;
+    checkGroups(post, *all, report);
     std::set<std::string_view> told; // groups
     const fusion::Node* const groups = fusion::bare(topLevelValue(post, "groupDefinitions"));
     for (const fusion::Node* one : all->kids) {

@@ -56,8 +56,32 @@ void checkForms(const Project& project, Report& report) {
   });
 }
 
+// `getProperty("x") || 5` of a property that is a number and begins with another than 0: it is always there.
+void checkProperties(const Project& project, Report& report) {
+  forEachPost(project, [&](const PostFile& post) {
+    const fusion::Node* const all = fusion::bare(topLevelValue(post, "properties"));
+    if (all == nullptr || !all->is(fusion::Kind::Object)) return;
+    for (const fusion::Node& node : post.tree.nodes) {
+      if (!node.is(fusion::Kind::Binary) || node.text != "||" || !isOther(node.kids[1])) continue;
+      const fusion::Node* const asked = fusion::bare(node.kids[0]);
+      if (!asked->is(fusion::Kind::Call) || calledName(*asked) != "getProperty" || asked->kids.size() != 2)
+        continue;
+      const std::string_view name = textLiteral(asked->kids[1]);
+      const fusion::Node* const property = name.empty() ? nullptr : fusion::bare(propertyOf(all, name));
+      if (property == nullptr || !property->is(fusion::Kind::Object) ||
+          !isOther(propertyOf(property, "value")))
+        continue;
+      report.at(post.tree.range(*asked),
+                "who sets the property `{}` to 0 gets {}: 0 counts as missing here, and a property is always "
+                "there; leave the second value out",
+                name, fusion::bare(node.kids[1])->text);
+    }
+  });
+}
+
 void check(const Project& project, Report& report) {
   checkForms(project, report);
+  checkProperties(project, report);
   forEachNode(project, fusion::Kind::Conditional, [&](const PostFile& post, const fusion::Node& node) {
     const fusion::Node* const tested = fusion::bare(node.kids[0]);
     const std::string name = fusion::dotted(tested);
