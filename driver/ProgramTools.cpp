@@ -55,7 +55,8 @@ public:
                          one.title.empty() ? "" : " (" + printable(one.title) + ")", place(one.range));
       if (!one.numbers.empty()) out += "  numbers    " + named(one.numbers, "N") + "\n";
       for (const macrob::OutlineCall& call : one.calls)
-        out += fmt::format("  call       {} P{}{} line {}\n", call.code, printable(call.program),
+        out += fmt::format("  call       {} {}{}{} line {}\n", call.code,
+                           call.program.starts_with('N') ? "" : "P", printable(call.program),
                            call.computed ? " (computed)" : "", line(call.range));
       for (const auto& [to, range] : one.jumps)
         out += fmt::format("  jump       to {} line {}\n", printable(to), line(range));

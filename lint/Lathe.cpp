@@ -1,5 +1,6 @@
 #include "lint/Lathe.h"
 
+#include "frontend/macrob/BlockWords.h"
 #include "frontend/macrob/Calls.h"
 #include "stdlib/Lathe.h"
 
@@ -13,7 +14,7 @@ namespace {
 ir::NcWords numbersOf(const macrob::Words& words) {
   ir::NcWords out;
   for (const frontend::nc::Word& word : words.words)
-    stdlib::addWord(out, word.address, macrob::literal(word));
+    if (!macrob::isCommaAddress(word.address)) stdlib::addWord(out, word.address, macrob::literal(word));
   return out;
 }
 
@@ -44,15 +45,14 @@ Lathes findLathes(const Project& project) {
 }
 
 bool isOfMills(std::string_view rule) {
-  static constexpr std::array<std::string_view, 22> kRules = {
-      "arc-geometry",          "arc-without-centre",     "codes-exclude",
-      "compensation-start",    "cycle-levels",           "cycle-words",
-      "data-input-words",      "feed-missing",           "length-offset-number",
-      "length-offset-off",     "mode-forbids-code",      "mode-left-on",
-      "offset-overwritten",    "reference-through-zero", "rotation-words",
-      "spindle-off-at-cut",    "spindle-speed-missing",  "tool-length-in-target",
-      "tool-not-changed",      "wear-in-geometry",       "word-not-taken",
-      "work-offset-not-chosen"};
+  static constexpr std::array<std::string_view, 21> kRules = {
+      "arc-geometry",           "codes-exclude",         "compensation-start",
+      "cycle-levels",           "cycle-words",           "data-input-words",
+      "feed-missing",           "length-offset-number",  "length-offset-off",
+      "mode-forbids-code",      "mode-left-on",          "offset-overwritten",
+      "reference-through-zero", "rotation-words",        "spindle-off-at-cut",
+      "spindle-speed-missing",  "tool-length-in-target", "tool-not-changed",
+      "wear-in-geometry",       "word-not-taken",        "work-offset-not-chosen"};
   return std::find(kRules.begin(), kRules.end(), rule) != kRules.end();
 }
 

@@ -48,10 +48,20 @@ void ControlReader::calls() {
     call.count = static_cast<std::uint32_t>(table.value("count").integer(1, 1, 999));
     if (call.letter == 'T' && call.count != 1)
       document_.fail(table.value("count").range(), "each T calls the same program");
-    call.program = whole(table, "program", "the program that the first code calls", 1, control_.programLast);
+    const TomlValue block = table.value("block");
+    if (block) { // M98 Q, M97 P: a part of the program that is running, up to M99
+      call.holds = static_cast<std::uint32_t>(block.choice({"P", "Q"}, "Q").front());
+      if (call.letter != 'M' || call.count != 1)
+        document_.fail(code.range(), "one M code calls a block of its own program");
+    } else {
+      call.program =
+          whole(table, "program", "the program that the first code calls", 1, control_.programLast);
+    }
     call.macro =
         table.require("as", "macro or subprogram").choice({"macro", "subprogram"}, "macro") == "macro";
-    if (const TomlValue holds = table.value("holds")) {
+    if (block && call.macro)
+      document_.fail(table.value("as").range(), "a block of the same program is called as a subprogram");
+    if (const TomlValue holds = block ? TomlValue() : table.value("holds")) {
       call.holds = static_cast<std::uint32_t>(holds.integer(1, 1, 999999));
       if (!control_.isCommon(*call.holds))
         document_.fail(holds.range(), fmt::format("#{} is no common variable", *call.holds));
@@ -65,7 +75,7 @@ void ControlReader::calls() {
           other.first < call.first + call.count)
         document_.fail(code.range(), fmt::format("`{}` is given twice", code.text()));
     }
-    for (std::uint32_t i = 0; i < call.count && call.letter != 'T'; ++i) {
+    for (std::uint32_t i = 0; i < call.count && call.letter != 'T' && !block; ++i) {
       if (control_.find(call.letter, (call.first + i) * 10) != nullptr)
         document_.fail(code.range(), fmt::format("`{}` is among the codes, too",
                                                  codeText(call.letter, (call.first + i) * 10)));

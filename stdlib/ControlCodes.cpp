@@ -152,11 +152,11 @@ void ControlReader::codeRanges(const TomlTable& table) {
     }
     const auto [letter, first, last] = *span;
     for (std::uint32_t tenths = first; tenths <= last; tenths += 10) {
-      const bool calls = std::any_of(control_.callCodes.begin(), control_.callCodes.end(),
-                                     [&, letter = letter](const CallCode& call) {
-                                       return call.letter == letter && tenths / 10 >= call.first &&
-                                              tenths / 10 < call.first + call.count;
-                                     });
+      const bool calls = std::any_of(
+          control_.callCodes.begin(), control_.callCodes.end(), [&, letter = letter](const CallCode& call) {
+            return call.program != 0 && call.letter == letter && tenths / 10 >= call.first &&
+                   tenths / 10 < call.first + call.count;
+          });
       if (calls || control_.find(letter, tenths) != nullptr) continue;
       if (control_.codes.size() == kMostCodes)
         document_.fail(item.range(), fmt::format("more than {} codes", kMostCodes));

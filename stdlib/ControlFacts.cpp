@@ -129,7 +129,10 @@ std::vector<ControlFact> ControlReader::facts(std::vector<ControlFact> base, con
            : call.count == 1  ? codeText(call.letter, call.first * 10)
                               : fmt::format("{}-{}", codeText(call.letter, call.first * 10),
                                             codeText(call.letter, (call.first + call.count - 1) * 10)),
-           fmt::format("O{} as {}", call.program, call.macro ? "macro" : "subprogram"), call);
+           call.program == 0
+               ? fmt::format("block {} of the same program as subprogram", static_cast<char>(*call.holds))
+               : fmt::format("O{} as {}", call.program, call.macro ? "macro" : "subprogram"),
+           call);
   for (const AlarmInfo& alarm : control_.alarms)
     listed("alarms", std::string(alarmName(alarm.alarm)), fmt::format("{} {}", alarm.number, alarm.text),
            alarm);

@@ -161,8 +161,9 @@ void ControlReader::inheritCodes() {
   for (const CodeInfo& code : base_->codes) {
     const bool calls =
         code.tenths % 10 == 0 &&
-        std::any_of(control_.callCodes.begin(), control_.callCodes.end(),
-                    [&](const CallCode& call) { return within(call, code.letter, code.tenths / 10); });
+        std::any_of(control_.callCodes.begin(), control_.callCodes.end(), [&](const CallCode& call) {
+          return call.program != 0 && within(call, code.letter, code.tenths / 10);
+        });
     if (!calls && control_.find(code.letter, code.tenths) == nullptr && !isRemoved(code.letter, code.tenths))
       control_.codes.push_back(code);
   }
@@ -174,8 +175,8 @@ void ControlReader::inheritCalls() {
     bool replaced = false;
     for (std::uint32_t i = 0; i < call.count && !replaced; ++i) {
       const std::uint32_t code = call.first + i;
-      replaced = isRemoved(call.letter, code * 10) ||
-                 (call.letter != 'T' && control_.find(call.letter, code * 10) != nullptr);
+      replaced = isRemoved(call.letter, code * 10) || (call.letter != 'T' && call.program != 0 &&
+                                                       control_.find(call.letter, code * 10) != nullptr);
       for (std::size_t own = 0; own < stated && !replaced; ++own)
         replaced = within(control_.callCodes[own], call.letter, code);
     }

@@ -30,7 +30,7 @@ struct Called {
 
 void callsOf(const ir::Word& word, const stdlib::Control& control, Called& out) {
   for (const stdlib::CallCode& code : control.callCodes) {
-    if (word.address != code.letter) continue;
+    if (word.address != code.letter || code.program == 0) continue; // 0: a block of the same program
     const auto number = wholeOf(word.value);
     if (code.letter == 'T')
       out.programs.push_back(code.program);

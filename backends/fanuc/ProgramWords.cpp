@@ -79,7 +79,7 @@ private:
   static std::optional<std::pair<std::uint32_t, bool>> calledBy(const stdlib::Control& control, char letter,
                                                                 std::uint32_t tenths) {
     for (const stdlib::CallCode& call : control.callCodes)
-      if (call.letter == letter && tenths % 10 == 0 && tenths / 10 >= call.first &&
+      if (call.program != 0 && call.letter == letter && tenths % 10 == 0 && tenths / 10 >= call.first &&
           tenths / 10 < call.first + call.count)
         return std::pair(call.program + tenths / 10 - call.first, call.macro);
     return std::nullopt;

@@ -16,8 +16,13 @@ const nc::Word* findAnyOf(const Words& words, std::string_view letters) {
   return nullptr;
 }
 
+std::string addressText(char address) {
+  return isCommaAddress(address) ? std::string{',', static_cast<char>(address & ~0x20)}
+                                 : std::string(1, address);
+}
+
 std::string wordText(const nc::Word& word) {
-  return word.address + print(*word.value);
+  return addressText(word.address) + print(*word.value);
 }
 
 } // namespace dotek::frontend::macrob

@@ -16,6 +16,16 @@ inline bool hasAny(const Words& words, std::string_view letters) {
   return findAnyOf(words, letters) != nullptr;
 }
 
+// `,C` `,R` `,A` have addresses of their own, in small letters: they are none of C, R and A.
+inline char commaAddress(char letter) {
+  return static_cast<char>(letter | 0x20);
+}
+inline bool isCommaAddress(char address) {
+  return address >= 'a' && address <= 'z';
+}
+// "X", ",C"
+std::string addressText(char address);
+
 // As messages show it: "X[#1+2.]". It has a value.
 std::string wordText(const nc::Word& word);
 

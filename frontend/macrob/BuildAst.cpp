@@ -1,5 +1,6 @@
 #include "frontend/macrob/BuildAst.h"
 
+#include "frontend/macrob/BlockWords.h"
 #include "support/Ascii.h"
 #include "support/Decimal.h"
 #include "support/messages/Common.h"
@@ -117,7 +118,8 @@ Words Builder::words(Parser::WordsContext& context) {
 
 nc::Word Builder::word(const antlr4::Token& address, Parser::WordValueContext& value) {
   nc::Word out;
-  out.address = address.getText().front();
+  const std::string text = address.getText();
+  out.address = text.size() == 2 ? commaAddress(text[1]) : text.front();
   out.range = spanning(rangeOf(address), rangeOf(value));
   out.value = wordValue(value);
   return out;

@@ -106,6 +106,8 @@ std::optional<Call> callOf(const Words& words) {
       call.program = &word;
     else if (word.address == 'L' && call.repeat == nullptr)
       call.repeat = &word;
+    else if (word.address == 'Q' && call.kind == CallKind::Subprogram && call.block == nullptr)
+      call.block = &word;
     else if (!macro)
       continue;
     else if (word.address >= 'I' && word.address <= 'K')

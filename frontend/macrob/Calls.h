@@ -31,6 +31,7 @@ struct Call {
   const nc::Word* code = nullptr;
   const nc::Word* program = nullptr;    // P; of a return the number of the block to go on at
   const nc::Word* repeat = nullptr;     // L
+  const nc::Word* block = nullptr;      // Q of M98: the number of the block to begin at
   std::vector<CallArgument> arguments;  // of G65, G66, G66.1, in the order of the text
   std::vector<const nc::Word*> refused; // G, N, O, further P and L: no arguments
   std::vector<const nc::Word*> before;  // words before the code

@@ -1,4 +1,5 @@
 // Loops, jumps, and blocks that never run.
+#include "frontend/macrob/BlockWords.h"
 #include "frontend/macrob/Calls.h"
 #include "frontend/macrob/Check.h"
 #include "frontend/macrob/Walk.h"
@@ -177,6 +178,15 @@ private:
     return behind != found->second.end() ? *behind : found->second.front();
   }
 
+  // The word that names the block of a local subprogram: M97 P, M98 Q.
+  static const nc::Word* localCall(const Block& block) {
+    const auto* words = std::get_if<Words>(&block.body);
+    if (words == nullptr) return nullptr;
+    if (findCode(*words, 'M', 97) != nullptr) return findWord(*words, 'P');
+    const auto call = callOf(*words);
+    return call && call->kind == CallKind::Subprogram && call->program == nullptr ? call->block : nullptr;
+  }
+
   static std::optional<std::uint64_t> numberOf(const Goto& jump) {
     const std::optional<double> value = literal(*jump.target);
     if (!value || *value < 0 || *value > 1e15) return std::nullopt;
@@ -218,6 +228,18 @@ private:
         found_.missingTargets[*number].push_back(jump->target->range);
       else
         intoLoop(i, *jump, target);
+    }
+    for (std::size_t i = 0; i < program_.blocks.size(); ++i) {
+      const nc::Word* const called = localCall(block(i));
+      const auto number = called == nullptr ? std::nullopt : literal(*called);
+      if (called != nullptr && !number) computed_ = true;
+      if (!number || *number < 0 || *number > 1e15) continue;
+      const auto whole = static_cast<std::uint64_t>(std::llround(*number));
+      const std::size_t target = targetOf(i, whole);
+      if (target == kNone)
+        found_.missingTargets[whole].push_back(called->range);
+      else
+        locals_.push_back(target);
     }
     incomplete_ = !found_.missingTargets.empty() || unreadHolds(program_, "GOTO");
     if (isExcerpt()) found_.missingTargets.clear();
@@ -280,6 +302,8 @@ private:
       work.push_back(at);
     };
     reach(0);
+    for (const std::size_t at : locals_)
+      reach(at);
     if (incomplete_ || computed_)
       for (const auto& [number, blocks] : numbered_)
         for (const std::size_t at : blocks)
@@ -324,8 +348,9 @@ private:
   std::vector<Loop> loops_;
   std::vector<std::size_t> innermost_; // index of the loop that holds each block; empty: loops cross
   std::map<std::uint64_t, std::vector<std::size_t>> numbered_;
-  bool computed_ = false;   // a jump goes to a computed number
-  bool incomplete_ = false; // a jump goes nowhere, or was not read
+  std::vector<std::size_t> locals_; // first blocks of local subprograms
+  bool computed_ = false;           // a jump goes to a computed number
+  bool incomplete_ = false;         // a jump goes nowhere, or was not read
 };
 
 } // namespace

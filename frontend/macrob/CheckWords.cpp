@@ -2,6 +2,7 @@
 #include "frontend/macrob/BlockWords.h"
 #include "frontend/macrob/Calls.h"
 #include "frontend/macrob/Check.h"
+#include "stdlib/CalledProgram.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,9 +25,12 @@ const nc::Number* withoutPoint(const nc::Word& word) {
   return number != nullptr && !number->point && number->value != 0 ? number : nullptr;
 }
 
-std::string millimetres(const nc::Word& word, const nc::Number& number, const stdlib::Control& control) {
+// Under G20 the least increment is a ten thousandth of an inch where it is a thousandth of a millimetre.
+std::string inLengths(const nc::Word& word, const nc::Number& number, const stdlib::Control& control,
+                      bool inch = false) {
   const double value = literal(word).value_or(number.value); // with its sign
-  return fmt::format("{:.{}f}", value * control.increment, control.decimals);
+  return fmt::format("{:.{}f}", value * control.increment / (inch ? 10 : 1),
+                     control.decimals + (inch ? 1 : 0));
 }
 
 std::string nameOf(const Call& call) {
@@ -44,15 +48,6 @@ const nc::Word* lostCall(const Words& words) {
   return program;
 }
 
-// Words of blocks that neither call a macro nor have lost a call.
-template <class Visit> void eachPlainWord(const CheckedProgram& input, const Visit& visit) {
-  for (const Words* words : input.plain) {
-    if (lostCall(*words) != nullptr) continue;
-    for (const nc::Word& word : words->words)
-      if (word.value != nullptr) visit(word);
-  }
-}
-
 } // namespace
 
 // ---- NC blocks
@@ -68,22 +63,54 @@ void callWordsAlone(const CheckedProgram& input, Report& report) {
 }
 
 void codeWithPoint(const CheckedProgram& input, Report& report) {
-  eachPlainWord(input, [&](const nc::Word& word) {
-    const auto* number = std::get_if<nc::Number>(&word.value->node);
-    if (isOneOf(word.address, "MST") && number != nullptr && number->point && word.value->brackets == 0)
-      report.at(word.range,
-                "`{}` is a number with a point, and this address takes whole numbers; the control stops with "
-                "an alarm; "
-                "leave the point out",
-                wordText(word));
-  });
+  for (const Words* words : input.plain) {
+    if (lostCall(*words) != nullptr) continue;
+    // An M code of the builder may call a macro, whose arguments these are.
+    const bool builders = std::any_of(words->words.begin(), words->words.end(), [&](const nc::Word& word) {
+      constexpr double kFirst = 100;
+      const auto code = word.address == 'M' ? literal(word) : std::nullopt;
+      return code && *code >= kFirst && *code == std::floor(*code);
+    });
+    for (const nc::Word& word : words->words) {
+      const auto* number = word.value == nullptr ? nullptr : std::get_if<nc::Number>(&word.value->node);
+      if (number == nullptr || !number->point || word.value->brackets > 0) continue;
+      if (word.address == 'M' || ((word.address == 'S' || word.address == 'T') && !builders))
+        report.at(
+            word.range,
+            "`{}` is a number with a point, and this address takes whole numbers; the control stops with "
+            "an alarm; "
+            "leave the point out",
+            wordText(word));
+    }
+  }
 }
 
 namespace {
 
+// G70 to G76: programs write depths, allowances and retracts in least increments.
+bool isCycleOfLathe(const Words& words, const stdlib::Control& control) {
+  using stdlib::Function;
+  return std::any_of(words.words.begin(), words.words.end(), [&](const nc::Word& word) {
+    const std::optional<double> code = word.address == 'G' ? literal(word) : std::nullopt;
+    if (!code || !(*code >= 70 && *code < 77)) return false;
+    const stdlib::CodeInfo* info = control.find('G', static_cast<std::uint32_t>(std::lround(*code * 10)));
+    return info != nullptr &&
+           (info->function == Function::ContourFinish || info->function == Function::ContourRough ||
+            info->function == Function::PeckAlongZ || info->function == Function::PeckAlongX ||
+            info->function == Function::ThreadPasses);
+  });
+}
+
+// With the point it would be more than any machine travels, turns or waits.
+bool isTooLargeWithPoint(const nc::Word& word, const nc::Number& digits, bool inch) {
+  constexpr double kTravel = 10'000, kInches = 1000, kTurn = 3600;
+  return digits.value >= (isOneOf(word.address, "ABC") ? kTurn : inch ? kInches : kTravel);
+}
+
 // The word is a length in this block. K is one of an arc, and counts the repeats of a canned cycle; Q is one
 // of a canned cycle, and chooses a mode elsewhere (G5.1 Q1).
 bool measures(const Words& words, char address, const stdlib::Control& control) {
+  if (control.turning && isCycleOfLathe(words, control)) return address == 'X' || address == 'Z';
   if (address != 'K' && address != 'Q') return true;
   return std::any_of(words.words.begin(), words.words.end(), [&](const nc::Word& word) {
     const std::optional<double> code = word.address == 'G' ? literal(word) : std::nullopt;
@@ -102,17 +129,24 @@ bool measures(const Words& words, char address, const stdlib::Control& control) 
 void wordWithoutPoint(const CheckedProgram& input, Report& report) {
   if (input.control == nullptr) return;
   const stdlib::Control& control = *input.control;
+  bool inch = false;
+  constexpr double kSeconds = 1000; // of a dwell
   for (const Words* words : input.plain) {
     if (lostCall(*words) != nullptr) continue;
+    if (findCode(*words, 'G', 20) != nullptr) inch = true;
+    if (findCode(*words, 'G', 21) != nullptr) inch = false;
+    const bool dwells = findCode(*words, 'G', 4) != nullptr;
     for (const nc::Word& word : words->words) {
       if (word.value == nullptr || !control.countsIncrements(word.address)) continue;
       const nc::Number* digits = withoutPoint(word);
-      if (digits != nullptr && measures(*words, word.address, control))
+      if (digits == nullptr || isTooLargeWithPoint(word, *digits, inch)) continue;
+      if (dwells && digits->value >= kSeconds) continue;
+      if (measures(*words, word.address, control))
         report.at(word.range,
                   "`{0}` has no point; this control counts least increments and reads {1}; write `{0}.` if "
                   "the larger "
                   "value is meant",
-                  wordText(word), millimetres(word, *digits, control));
+                  wordText(word), inLengths(word, *digits, control, inch));
     }
   }
 }
@@ -127,8 +161,10 @@ void callWithoutProgram(const CheckedProgram& input, Report& report) {
   };
   for (const Call& call : input.calls)
     judge(call);
+  // M98 Q calls a block of the same program on some machines of each control that has it.
+  const bool local = input.control == nullptr || stdlib::localCallAddress(*input.control, 'M', 98) == 'Q';
   for (const Call& call : input.subprograms)
-    judge(call);
+    if (!local || call.block == nullptr) judge(call);
 }
 
 void argumentBeforeCall(const CheckedProgram& input, Report& report) {
@@ -194,7 +230,7 @@ void argumentWithoutPoint(const CheckedProgram& input, Report& report) {
           input.control->countsIncrements(argument.word->address))
         report.at(argument.word->range,
                   "`{0}` has no point; this control counts least increments and hands over {1}; write `{0}.`",
-                  wordText(*argument.word), millimetres(*argument.word, *digits, *input.control));
+                  wordText(*argument.word), inLengths(*argument.word, *digits, *input.control));
     }
 }
 

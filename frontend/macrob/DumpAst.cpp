@@ -1,5 +1,7 @@
 #include "frontend/macrob/Parse.h"
 
+#include "frontend/macrob/BlockWords.h"
+
 #include <fmt/format.h>
 
 namespace dotek::frontend::macrob {
@@ -78,7 +80,7 @@ private:
   void dump(const std::monostate&) {}
   void dump(const Words& words) {
     for (const nc::Word& word : words.words) {
-      line(word.range, fmt::format("word {}", word.address));
+      line(word.range, fmt::format("word {}", addressText(word.address)));
       inner(word.value);
     }
   }

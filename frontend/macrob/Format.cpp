@@ -1,5 +1,7 @@
 #include "frontend/macrob/Format.h"
 
+#include "frontend/macrob/BlockWords.h"
+
 #include <fmt/format.h>
 
 namespace dotek::frontend::macrob {
@@ -214,7 +216,7 @@ std::string print(const Block& block) {
   if (const auto* words = std::get_if<Words>(&block.body)) {
     std::uint32_t printed = 0;
     for (const nc::Word& word : words->words) {
-      add(word.address + (word.value == nullptr ? std::string() : value(*word.value)));
+      add(addressText(word.address) + (word.value == nullptr ? std::string() : value(*word.value)));
       comments(++printed);
     }
   } else if (!std::holds_alternative<std::monostate>(block.body)) {

@@ -1,9 +1,12 @@
 #include "frontend/macrob/Lower.h"
 
+#include "frontend/macrob/BlockWords.h"
 #include "frontend/macrob/Calls.h"
 #include "frontend/macrob/Check.h"
 #include "frontend/macrob/LowerExpression.h"
 #include "frontend/macrob/Walk.h"
+#include "stdlib/CalledProgram.h"
+#include "support/messages/Common.h"
 #include "support/messages/MacroB.h"
 
 #include <algorithm>
@@ -215,6 +218,7 @@ private:
 
   void lower(const Words& words, const Comment*) {
     const std::optional<Call> call = callOf(words);
+    if (!call && localCall(words)) return;
     if (!call) {
       std::vector<const nc::Word*> all;
       all.reserve(words.words.size());
@@ -231,15 +235,53 @@ private:
       plain(others(words, *call));
       add(ir::Call{ir::CallKind::Off, nullptr, nullptr, {}});
       break;
-    case CallKind::Subprogram:
-      plain(others(words, *call));
-      add(ir::Call{ir::CallKind::Subprogram, valueOf(call->program), valueOf(call->repeat), {}});
-      break;
+    case CallKind::Subprogram: subprogram(words, *call); break;
     case CallKind::Return:
       plain(others(words, *call));
       add(ir::Exit{valueOf(call->program)});
       break;
     }
+  }
+
+  // The number of the block is the only argument of such a call, with no local of its own.
+  static ir::Call localCall(const nc::Word& block, const nc::Word* program, const nc::Word* repeats) {
+    ir::Call out{ir::CallKind::Subprogram, valueOf(program), valueOf(repeats), {}};
+    out.arguments.push_back({block.address, 0, lowerWordValue(*block.value, Place::Statement), block.range});
+    return out;
+  }
+
+  // M97 P of a Haas.
+  bool localCall(const Words& words) {
+    constexpr std::uint32_t kLocal = 97;
+    const nc::Word* const code = use_ == LowerFor::Translation ? nullptr : findCode(words, 'M', kLocal);
+    const char address = code == nullptr ? '\0' : stdlib::localCallAddress(control_, 'M', kLocal);
+    const nc::Word* const block = address == 0 ? nullptr : findWord(words, address);
+    if (block == nullptr) return false;
+    const nc::Word* const repeats = findWord(words, 'L');
+    std::vector<const nc::Word*> before;
+    for (const nc::Word& word : words.words)
+      if (&word != code && &word != block && &word != repeats) before.push_back(&word);
+    plain(before);
+    add(localCall(*block, nullptr, repeats));
+    return true;
+  }
+
+  void subprogram(const Words& words, const Call& call) {
+    const bool begins = call.block != nullptr && stdlib::localCallAddress(control_, 'M', 98) == 'Q';
+    if (begins && use_ != LowerFor::Translation) {
+      std::vector<const nc::Word*> before = others(words, call);
+      std::erase(before, call.block);
+      plain(before);
+      add(localCall(*call.block, call.program, call.repeat));
+      return;
+    }
+    if (call.program == nullptr && use_ == LowerFor::Translation) {
+      Report report(callWithoutProgramCheck.code, callWithoutProgramCheck.severity, diagnostics_);
+      report.at(call.code->range, "the call names no program, but a block of its own one, which is not "
+                                  "translated; write that part as a program and call it with `P`");
+    }
+    plain(others(words, call));
+    add(ir::Call{ir::CallKind::Subprogram, valueOf(call.program), valueOf(call.repeat), {}});
   }
 
   static ir::ExpressionPtr valueOf(const nc::Word* word) {
@@ -256,8 +298,18 @@ private:
     if (words.empty()) return;
     ir::NcBlock block;
     block.words.reserve(words.size());
-    for (const nc::Word* word : words)
+    for (const nc::Word* word : words) {
+      if (isCommaAddress(word->address)) {
+        if (use_ == LowerFor::Translation)
+          diagnostics_.report<diag::SyntaxError>(
+              word->range,
+              fmt::format("`{}` changes the corner to the next block, or its direction, and is not "
+                          "translated; write the points instead",
+                          addressText(word->address)));
+        if (use_ != LowerFor::Run) continue; // rules know the programmed points
+      }
       block.words.push_back({word->address, lowerWordValue(*word->value, Place::Word), word->range});
+    }
     add(std::move(block));
   }
 

@@ -57,6 +57,8 @@ private:
 
   void call(const Words& words) {
     const auto found = callOf(words);
+    if (const nc::Word* code = found ? nullptr : findCode(words, 'M', 97))
+      blockCall(*code, findWord(words, 'P'));
     if (!found || found->kind == CallKind::Off || found->code == nullptr) return;
     if (found->kind == CallKind::Return) {
       if (found->program != nullptr)
@@ -64,6 +66,8 @@ private:
                                 found->program->range);
       return;
     }
+    if (found->kind == CallKind::Subprogram && found->program == nullptr && found->block != nullptr)
+      return blockCall(*found->code, found->block);
     OutlineCall one;
     one.code = sources_.textUtf8(found->code->range);
     one.range = found->code->range;
@@ -75,6 +79,15 @@ private:
                                                        : "";
     }
     out_.calls.push_back(std::move(one));
+  }
+
+  // M97 P, M98 Q: a part of the same program.
+  void blockCall(const nc::Word& code, const nc::Word* block) {
+    if (block == nullptr || block->value == nullptr) return;
+    const auto value = literal(*block);
+    out_.calls.push_back({sources_.textUtf8(code.range),
+                          value ? fmt::format("N{}", *value) : "N" + sources_.textUtf8(block->value->range),
+                          !value, code.range});
   }
 
   // Of G70 to G73 of a lathe; G73 with a level R drills.

@@ -181,7 +181,23 @@ private:
         continue;
       out.push_back(tokOf(token, lines_.bytes));
     }
+    joinCommas(out);
     return out;
+  }
+
+  // `,C2.` `,R1.` `,A30.` are words with addresses of their own: a chamfer, a rounding, an angle.
+  static void joinCommas(std::vector<Tok>& tokens) {
+    int depth = 0;
+    for (std::size_t i = 0; i + 1 < tokens.size(); ++i) {
+      depth += tokens[i].type == Lexer::LBRACKET ? 1 : tokens[i].type == Lexer::RBRACKET ? -1 : 0;
+      const Tok& next = tokens[i + 1];
+      if (depth != 0 || tokens[i].type != Lexer::COMMA || next.type != Lexer::ADDRESS ||
+          next.text.size() != 1 || std::string_view("ACR").find(next.text[0]) == std::string_view::npos ||
+          i + 2 >= tokens.size())
+        continue;
+      tokens[i] = Tok{Lexer::ADDRESS, tokens[i].begin, next.end, "," + next.text};
+      tokens.erase(tokens.begin() + static_cast<std::ptrdiff_t>(i + 1));
+    }
   }
 
   // Its number is kept: jumps may go there.

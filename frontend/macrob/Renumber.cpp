@@ -296,6 +296,8 @@ private:
       word(which, *q, "the contour of a cycle");
     }
     const auto call = callOf(words);
+    if (call && call->kind == CallKind::Subprogram && call->program == nullptr && call->block != nullptr)
+      return word(which, *call->block, "a subprogram of the same program");
     if (!call || call->program == nullptr) return;
     if (call->kind == CallKind::Return) return followReturn(which, *call->program);
     if (call->kind != CallKind::Subprogram || q == nullptr) return;

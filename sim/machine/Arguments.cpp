@@ -11,7 +11,7 @@ namespace dotek::sim {
 
 const stdlib::CallCode* findCallCode(const stdlib::Control& control, char letter, double value) {
   for (const stdlib::CallCode& call : control.callCodes) {
-    if (call.letter != letter) continue;
+    if (call.letter != letter || call.program == 0) continue; // 0: a block of the same program
     if (letter == 'T') return &call;
     const double whole = letter == 'M' ? std::round(value) : value;
     if (whole >= call.first && whole < call.first + call.count && whole == std::floor(whole)) return &call;

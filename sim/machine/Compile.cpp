@@ -24,6 +24,7 @@ namespace {
 ir::NcWords numbersOf(const ir::NcBlock& block) {
   ir::NcWords out;
   for (const ir::Word& word : block.words) {
+    if (word.address > 'Z') continue; // `,C`
     const double* value = ir::constantValue(word.value);
     stdlib::addWord(out, word.address, value == nullptr ? std::nullopt : std::optional(*value));
   }
@@ -243,6 +244,13 @@ void Compiler::operator()(const ir::NcBlock& block) {
 }
 
 void Compiler::words(const ir::NcBlock& block, bool positions) {
+  for (const ir::Word& word : block.words)
+    if (word.address > 'Z')
+      return refuse(word.address == 'a'
+                        ? "`,A` is the angle of a straight line, from which the control computes the other "
+                          "coordinate; Dotek does not follow it; write the point for a run here"
+                        : "`,C` is a chamfer and `,R` a rounding at the corner to the next block; Dotek does "
+                          "not follow them; write the points of the chamfer, or an arc, for a run here");
   BlockSlots slots;
   slots.positions = positions;
   std::vector<WordSlot> all;
@@ -292,7 +300,8 @@ void Compiler::operator()(const ir::Call& call) {
     slot.bare =
         ir::numberWithoutPoint(argument.value) != nullptr && control_.countsIncrements(argument.letter);
     slot.cell = value(argument.value);
-    if (slot.local == 0 || slot.local > layout_.locals())
+    const bool block = slot.local == 0 && call.kind == ir::CallKind::Subprogram; // to begin at
+    if (!block && (slot.local == 0 || slot.local > layout_.locals()))
       return refuse(fmt::format("the argument {} sets no local variable", argument.letter));
     arguments.push_back(slot);
   }

@@ -255,7 +255,7 @@ bool Machine::reference(const NcWords& w, bool first) {
           "a reference return without axes: some controls move all axes, others none; name the axes", 'G');
     NcWords all = w; // each straight to its reference point
     for (std::size_t i = 0; i < kAxes; ++i) {
-      if (i >= 3 && (shown_ >> i & 1) == 0) continue;
+      if ((i >= 3 || turning_ != nullptr) && (shown_ >> i & 1) == 0) continue;
       all.present |= ir::addressBit(kAxisLetters[i]);
       all.value[slotOf(kAxisLetters[i])] = 0;
       block_.increments |= 1u << i;

@@ -109,10 +109,11 @@ bool Machine::singleCycle(const NcWords& w) {
   const std::uint32_t axes = axisNumbers(w.present & kAxisBits);
   if ((axes & ~kPlaneAxes) != 0) return inconclusive("a single cycle moves X and Z", 'G');
   if (axes == 0) {
-    if (begins)
-      return inconclusive("a single cycle of a lathe without X and Z; there are no modes of absolute and "
-                          "incremental in this G code system, X and Z are absolute, U and W increments",
-                          'G');
+    // `G90` among the codes of a first block: nothing moves, and nothing is there to repeat.
+    if (begins || cycleAxes_ == 0) {
+      if ((w.present & ir::addressBits("IKR")) == 0) return true;
+      return inconclusive("a single cycle of a lathe without X and Z", 'G');
+    }
     if ((w.present & ~ir::addressBit('N')) == 0) return true;
     return inconclusive(
         "a single cycle is in force (`G90`, `G92`, `G94`), and whether a block without X and Z "

@@ -96,8 +96,9 @@ public:
 private:
   struct Level {
     const Routine* routine = nullptr;
-    std::uint32_t caller = 0;  // place of the instruction that called
-    std::uint32_t repeats = 1; // passes that are left, this one too
+    std::uint32_t caller = 0;      // place of the instruction that called
+    std::uint32_t repeats = 1;     // passes that are left, this one too
+    std::uint32_t entry = kNoCell; // where they begin, if not at the first block
     bool macro = false;
     bool byCode = false;           // codes that call programs are ordinary ones here
     std::uint32_t modalCalls = 0;  // of those in force, how many act here
@@ -190,6 +191,7 @@ private:
   bool call(const CallSlots& slots);
   bool modalOff();
   bool begin(const Request& request);
+  bool callBlock(const CallSlots& slots, const Routine& routine);
   bool beginPass(const Level& level);
   void leaveLevel(const Level& level);
   bool repeatsOf(double value, std::uint32_t& repeats);

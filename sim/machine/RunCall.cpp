@@ -35,6 +35,8 @@ bool Run::call(const CallSlots& slots) {
   tellMeasured(slots.program);
   tellMeasured(slots.repeats);
   const double program = slots.program == kNoCell ? kNull : cell(slots.program);
+  if (slots.program == kNoCell && slots.kind == ir::CallKind::Subprogram && slots.arguments == 1)
+    return callBlock(slots, *levels_.back().routine);
   if (isNull(program)) return machine_.raise(Alarm::NoProgramNumber);
   Request request;
   double number = std::round(program);
@@ -50,6 +52,10 @@ bool Run::call(const CallSlots& slots) {
         fmt::format("its programs have numbers from 1 to {}; {}", control_.programLast, kLongProgramNumbers),
         'P');
   request.program = static_cast<std::uint64_t>(number);
+  if (slots.kind == ir::CallKind::Subprogram && slots.arguments == 1) {
+    const Routine* const routine = code_.find(request.program);
+    return routine == nullptr ? begin(request) : callBlock(slots, *routine);
+  }
   request.macro = slots.kind != ir::CallKind::Subprogram;
   request.byCode = levels_.back().byCode;
   request.modalCalls = levels_.back().modalCalls;
@@ -75,6 +81,29 @@ bool Run::call(const CallSlots& slots) {
     if (level.modalCalls + 1 == modal_.size()) ++level.modalCalls;
   machine_.noteModal(stdlib::Function::ModalCall);
   ++place_;
+  return true;
+}
+
+// M98 Q, M97 P: from that block of the program to M99, with the caller's locals.
+bool Run::callBlock(const CallSlots& slots, const Routine& routine) {
+  const std::uint32_t cellOfBlock = code_.arguments[slots.firstArgument].cell;
+  if (!knows(cellOfBlock)) return false;
+  tellMeasured(cellOfBlock);
+  Level level;
+  level.caller = place_;
+  level.routine = &routine;
+  level.byCode = levels_.back().byCode;
+  level.modalCalls = levels_.back().modalCalls;
+  if (slots.repeats != kNoCell && !repeatsOf(cell(slots.repeats), level.repeats)) return false;
+  const std::uint64_t number = sequenceNumber(nullAsZero(cells_[cellOfBlock]), control_);
+  const std::uint32_t from = &routine == levels_.back().routine ? place_ : routine.begin;
+  const NumberedPlace* const to = number == 0 ? nullptr : code_.search(routine, from, number);
+  if (to == nullptr) return machine_.raise(Alarm::NoSuchSequence);
+  if (code_.entersLoop(0, to->loop))
+    return refuse("a call of a block within a loop: the control does not know how it was begun");
+  level.entry = to->place;
+  if (!beginPass(level)) return false;
+  levels_.push_back(std::move(level));
   return true;
 }
 
@@ -147,7 +176,7 @@ bool Run::beginPass(const Level& level) {
     if (MotionWatcher* const watcher = machine_.watcher(); watcher != nullptr)
       watcher->callBegins(frame.program, locals_);
   }
-  place_ = level.routine->begin;
+  place_ = level.entry == kNoCell ? level.routine->begin : level.entry;
   return true;
 }
 

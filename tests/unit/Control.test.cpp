@@ -1,4 +1,5 @@
 #include "stdlib/Control.h"
+#include "stdlib/CalledProgram.h"
 
 #include "ControlText.h"
 #include "stdlib/DataFiles.h"
@@ -365,14 +366,17 @@ TEST_CASE("Haas NGC: what it has otherwise than the Fanuc that it extends") {
   CHECK(haas.find('G', 541) == nullptr);
   CHECK(function(haas, 'G', 154) == Function::ExtendedWorkSystem);
   CHECK(function(haas, 'G', 103) == Function::Auxiliary);
-  CHECK(function(haas, 'M', 97) == Function::Other); // no run passes it over
+  CHECK(function(haas, 'M', 97) == Function::SubprogramCall);
   CHECK(function(haas, 'G', 31) == Function::Skip);
   CHECK(haas.alarms.empty()); // Fanuc's numbers are not its own
   CHECK(haas.variables.toolGeometry == 2000);
   CHECK(haas.variables.toolWear == 2200);
   CHECK_FALSE(haas.variables.toolWearToo);
   CHECK_FALSE(haas.window);
-  CHECK(haas.callCodes.empty());
+  REQUIRE(haas.callCodes.size() == 1); // M97 P: a block of the same program
+  CHECK(localCallAddress(haas, 'M', 97) == 'P');
+  CHECK(localCallAddress(haas, 'M', 98) == 0);
+  CHECK(localCallAddress(control("fanuc-6m"), 'M', 98) == 0);
   CHECK(haas.isCommon(10200));
   CHECK_FALSE(haas.isCommon(10150)); // another name of #150
   CHECK(haas.isCommon(700));         // macros made for it write #701

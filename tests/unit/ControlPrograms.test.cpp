@@ -1,5 +1,6 @@
 // What controls say of macro programs.
 #include "ControlText.h"
+#include "stdlib/CalledProgram.h"
 
 using namespace dotek;
 using namespace dotek::stdlib;
@@ -10,7 +11,7 @@ using tests::own;
 TEST_CASE("controls: how macro programs run on them") {
   const Control late = *Control::load(DataFiles(), "fanuc-31i-b");
   CHECK(late.arithmetic == Arithmetic::Double);
-  REQUIRE(late.callCodes.size() == 1); // G5101A[#6]X1 runs O9101
+  REQUIRE(late.callCodes.size() == 2); // and M98 Q; G5101A[#6]X1 runs O9101
   CHECK(late.callCodes[0].letter == 'G');
   CHECK(late.callCodes[0].first == 5101);
   CHECK(late.callCodes[0].program == 9101);
@@ -23,7 +24,9 @@ TEST_CASE("controls: how macro programs run on them") {
   const Control middle = *Control::load(DataFiles(), "fanuc-0i-md");
   CHECK(middle.arithmetic == Arithmetic::Decimal8);
   CHECK(middle.repeatInProgram);
-  CHECK(middle.callCodes.empty());
+  CHECK(localCallAddress(late, 'M', 98) == 'Q');
+  CHECK(localCallAddress(middle, 'M', 98) == 'Q');
+  CHECK(middle.callCodes.size() == 1);
   CHECK_FALSE(middle.window);
   const Control early = *Control::load(DataFiles(), "fanuc-6m");
   CHECK(early.arithmetic == Arithmetic::Decimal8);

@@ -207,6 +207,7 @@ TEST_CASE("macrob check: decimal points, where the control counts increments (1.
   CHECK(program("G3 Y5. J0 K5 F100", k6m) == "W 2:11 word-without-point");
   CHECK(program("G81 Z-9. R2. K3 F100\nG8 Q1", k6m) == "");
   CHECK(program("G65P9811Y-1Q5", k31) == "");
+  CHECK(program("G0 X25400 A360000\nG4 X9999", k6m) == ""); // meant, as with a point nothing reaches it
   CHECK(program("G65P9811Y-1Q5.", k6m) == "E 2:9 argument-without-point");
   CHECK(program("G65 P10 D5 F20 T4 S1 H3 M1 E1 X0", k6m) == ""); // whole units
 }
@@ -215,6 +216,10 @@ TEST_CASE("macrob check: calls (1.8)") {
   CHECK(program("G65 A1. B2. P1000") == ""); // P and arguments in any order
   CHECK(program("G65 X1.") == "E 2:1 call-without-program");
   CHECK(program("M98 L2") == "E 2:1 call-without-program");
+  CHECK(program("M98 Q100\nM30\nN100 G0 X1.\nM99", k31) == "");
+  CHECK(program("M98 Q100\nGOTO 9\nN100 G0 X1.\nM99\nN9 M30", k31) == ""); // and N100 runs
+  CHECK(program("M98 Q100\nM30\nN100 G0 X1.\nM99", k6m) == "E 2:1 call-without-program");
+  CHECK(program("M98 Q100\nM30\nN10 G0 X1.\nM99", k31) == "E 2:5 goto-target-missing");
   CHECK(program("P9810 D5. S55.") == "W 2:1 call-words-alone");
   CHECK(program("G82 X5. P9500\nX6. P500") == "");
   CHECK(program("G65 P100 G90") == "E 2:10 no-argument");

@@ -84,9 +84,8 @@ TEST_CASE("macrob: comments as other controls write them are one finding in a fi
 }
 
 TEST_CASE("macrob slips: what is not read is no slip, and nothing is to be corrected") {
-  for (const char* text :
-       {"G1 X10. ,C2.", "G1 X10. , R#1 F100", "N5 G1X#1,c[#2]", "#7=PRM[3201,5]", "#7=PRM[#3]+1",
-        "IF[PRM[20]EQ1]GOTO8\nN8", "M98 P<SUB-1>", "G65P<BORE.2>D30.", "M98 <SUB>", "G66 <SUB> X#1"}) {
+  for (const char* text : {"#7=PRM[3201,5]", "#7=PRM[#3]+1", "IF[PRM[20]EQ1]GOTO8\nN8", "M98 P<SUB-1>",
+                           "G65P<BORE.2>D30.", "M98 <SUB>", "G66 <SUB> X#1"}) {
     CAPTURE(text);
     MacroFile file(std::string(text) + "\n");
     const std::string told = file.check().told();
@@ -98,6 +97,22 @@ TEST_CASE("macrob slips: what is not read is no slip, and nothing is to be corre
   }
   // A comparison, and commas of numbers, are what they were.
   holds({"IF[#4<2]GOTO8\nN8", "E 1:6 sign-unknown", "sign-unknown", "IF[#4LT2]GOTO8\nN8"});
+}
+
+TEST_CASE("macrob: a chamfer, a rounding and an angle are words with addresses of their own") {
+  for (const char* text :
+       {"G1 X10. F9. ,C2.", "G1 X10. , R#1 F100.", "N5 G1 X#1 ,C[#2] F9.", "G1 X-21.75 ,A30. F9."}) {
+    CAPTURE(text);
+    MacroFile file("O1\n" + std::string(text) + "\nM30\n");
+    CHECK(file.check().told() == "");
+  }
+  MacroFile both("O1\nG1F9.X1.,C2.C3.\nM30\n"); // C of an axis is another word
+  CHECK(both.check().told() == "");
+  const auto& words = std::get<frontend::macrob::Words>(both.file.programs.front().blocks.front().body).words;
+  REQUIRE(words.size() == 5);
+  CHECK(words[3].address == 'c');
+  CHECK(words[4].address == 'C');
+  holds({"G1 X10. F9. , Y5.", "E 1:13 syntax-error", "syntax-error", ""});
 }
 
 TEST_CASE("macrob slips: a function as the value of an address wants brackets, with a sign as well") {

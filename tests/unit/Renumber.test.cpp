@@ -39,6 +39,8 @@ TEST_CASE("renumber follows each way to name a block") {
   CHECK(renumbered("O1\nN7 X1.\nIF[#[4000+114]NE 7]GOTO 7\n") ==
         "O1\nN10 X1.\nIF[#[4000+114]NE 10]GOTO 10\n");
   CHECK(renumbered("O1\nM97 P7\nM30\nN7 X1.\nM99\n") == "O1\nM97 P10\nM30\nN10 X1.\nM99\n");
+  CHECK(renumbered("O1\nM98 Q7 L2\nM30\nN7 X1.\nM99\nO2\nN7 M99\n") ==
+        "O1\nM98 Q10 L2\nM30\nN10 X1.\nM99\nO2\nN10 M99\n");
   CHECK(renumbered("O1\nN7 X1.\nM99 P7\n") == "O1\nN10 X1.\nM99 P10\n");
   CHECK(renumbered("O1\nG71 P7 Q8 U1.\nN7 X1.\nN8 Z1.\n") == "O1\nG71 P10 Q20 U1.\nN10 X1.\nN20 Z1.\n");
   CHECK(renumbered("O1\nG73 X1. Z-2. R1. P7 Q8 F1.\nN7 X1.\nN8 Z1.\n") ==

@@ -114,6 +114,25 @@ TEST_CASE("run, reference 1.8: repeats, the old form of M98, P missing, no such 
   CHECK(MacroRun("O1\nG65P2L2A5.\nM30\nO2\n#100=#100+#1\n#1=1\nM99\n").at(100) == "10");
 }
 
+TEST_CASE("run: M98 Q and M97 P call a block of their program") {
+  const std::string rest = "M30\nN100#100=#100+#1\nM99\nO2\n#100=50\nN100#100=#100+7\nM99\n";
+  const auto value = [&](const std::string& blocks, const std::string& control = "fanuc-31i-b") {
+    const MacroRun run("O1\n#1=2\n#100=0\n" + blocks + rest, controlOf(control));
+    return run.end() == "end" ? run.at(100) : run.end();
+  };
+  CHECK(value("M98Q100\n") == "2"); // the caller's locals
+  CHECK(value("M98Q100L3\n") == "6");
+  CHECK(value("M98P2Q100\n") == "7");
+  CHECK(value("#2=100\nM98Q#2\nM98Q#2\n", "fanuc-0i-md") == "4");
+  CHECK(value("M98Q200\n") == "alarm 128");
+  CHECK(value("M97P100L2\n", "haas-ngc") == "4");
+  CHECK(MacroRun("O1\nM97P5\n#100=#100+10\nM30\nN5#100=#100+1\nM97P6\nM99\nN6#100=#100*3\nM99\n",
+                 controlOf("haas-ngc"))
+            .at(100) == "13");
+  CHECK(
+      MacroRun("O1\nM98Q5\nM30\nWHILE[#1LT3]DO1\nN5#1=#1+1\nEND1\nM99\n").end().starts_with("inconclusive"));
+}
+
 TEST_CASE("run, reference 1.8: nesting: 122 for macros, 77 in all, a limit of Dotek where it is not known") {
   CHECK(MacroRun("O1\n#100=#100+1\nG65P1\n").end() == "alarm 122");
   CHECK(MacroRun("O1\n#100=#100+1\nG65P1\n").at(100) == "6"); // five levels below the main program

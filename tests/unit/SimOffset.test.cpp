@@ -226,8 +226,11 @@ TEST_CASE("sim: a bare G28 moves where the profile says so") {
   CHECK(haas.machineAt() == "0 0 0");
   CHECK(haas.state() == "running");
   Simulation fanuc;
-  fanuc.run("G0 X10.\nG91 G28");
-  CHECK(fanuc.state() == "inconclusive G");
+  fanuc.run("G0 X10. Z4.\nG91 G28");
+  CHECK(fanuc.machineAt() == "0 0 0");
+  Simulation old("fanuc-6m");
+  old.run("G0 X10.\nG91 G28");
+  CHECK(old.state() == "inconclusive G");
 }
 
 TEST_CASE("sim offset: a profile says that outside corners are arcs") {
