@@ -455,6 +455,13 @@ void arcWithoutCentre(const CheckedProgram& input, Report& report) {
     const nc::Word* radius = findWord(*words, 'R');
     if (radius != nullptr && literal(*radius) == 0.0)
       report.at(radius->range, "the arc has the radius 0; the control stops with an alarm; write the radius");
+    else if (const nc::Word* centre = radius == nullptr ? nullptr : findAnyOf(*words, "IJK");
+             centre != nullptr && centre->value != nullptr && literal(*centre) && literal(*centre) != 0.0)
+      report.at(
+          centre->range,
+          "`{}` beside `{}`: the arc has a centre and a radius; the control takes the radius alone; leave "
+          "one of them out",
+          wordText(*centre), wordText(*radius));
     else if (!hasAny(*words, "IJKR"))
       report.at(
           arc->range,

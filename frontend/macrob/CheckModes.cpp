@@ -114,7 +114,8 @@ void feedMissing(const CheckedProgram& input, Report& report) {
 }
 
 void cycleWords(const CheckedProgram& input, Report& report) {
-  bool told = false; // of this cycle, whose further holes lack the same
+  bool told = false;   // of this cycle, whose further holes lack the same
+  bool dwells = false; // a cycle before had P
   eachBlock(input, [&](const Words& words, const Modes&, const Modes& now) {
     if (now.cycle != Certain::Yes || takesWords(words) != nullptr) return;
     const nc::Word* code = findWord(words, 'G');
@@ -154,6 +155,29 @@ void cycleWords(const CheckedProgram& input, Report& report) {
     if (now.cycleCode == 87 && now.returnsToR == Certain::Yes)
       tell("G87 returns to the initial level alone, and G99 is in force; the control stops with an alarm, "
            "or the tool stays below the part; write G98");
+    const bool begins = now.cycleCode != 0 && findCode(words, 'G', now.cycleCode) != nullptr;
+    const nc::Word* const peck = findWord(words, 'Q');
+    if (!told && begins && (now.cycleCode == 76 || now.cycleCode == 87) && now.peck == Certain::No &&
+        peck == nullptr)
+      tell("{} has no Q, by which the tool leaves the wall before it goes out; the control stops with an "
+           "alarm, or the tool scores the bore; write Q",
+           name);
+    if (peck != nullptr && (now.cycleCode == 73 || now.cycleCode == 83))
+      if (const auto value = literal(*peck); value && *value <= 0) {
+        told = true;
+        report.at(
+            peck->range,
+            "`{}`: the depth of a peck is above 0; the control stops with an alarm or drills in one go; "
+            "write the depth",
+            wordText(*peck));
+      }
+    const bool waits = hasAny(words, "P");
+    if (begins && (now.cycleCode == 82 || now.cycleCode == 89) && !waits && !dwells)
+      tell("{} has no P, the dwell at the bottom; it does what G{} does, or waits as long as an earlier "
+           "cycle; "
+           "write P",
+           name, now.cycleCode == 82 ? 81 : 85);
+    dwells = dwells || waits;
   });
 }
 
@@ -245,6 +269,20 @@ private:
     return literal(word) && number != nullptr && (number->point || number->value == 0 || !bare_);
   }
 
+  // The centre lies as far from start and end if its numbers are coordinates.
+  bool fitsAsPoint(const Modes& before, const PlaneLetters& plane, const std::array<double, 2>& way,
+                   const std::array<double, 2>& centre) const {
+    std::array<double, 2> from{};
+    for (std::size_t i = 0; i < 2; ++i) {
+      const auto start = before.at[static_cast<std::size_t>(plane.axes[i] - 'X')];
+      if (!start) return false;
+      from[i] = centre[i] - *start;
+    }
+    const double first = std::hypot(from[0], from[1]);
+    return first > tolerance_ &&
+           std::abs(first - std::hypot(from[0] - way[0], from[1] - way[1])) <= tolerance_;
+  }
+
   // Of an arc whose start, end and centre are numbers.
   void ends(const Words& words, const Modes& before, const Modes& now, const PlaneLetters& plane,
             SourceRange range) const {
@@ -279,8 +317,13 @@ private:
       report_.at(
           range,
           "the start of this arc is {:.3f} from its centre and the end {:.3f}; the control stops with alarm "
-          "20 (over tolerance of radius); correct the end point or the centre",
-          first, second);
+          "20 (over tolerance of radius); correct the end point or the centre{}",
+          first, second,
+          fitsAsPoint(before, plane, way, centre)
+              ? fmt::format("; {} and {} fit as coordinates of the centre, and the control takes them as "
+                            "distances from the start",
+                            plane.centre[0], plane.centre[1])
+              : "");
   }
 
   double tolerance_;

@@ -14,6 +14,27 @@ void checkEnd(const ir::NcBlock& block, std::size_t at, const Machining& before,
       "move after the arc");
 }
 
+// G41 in a block without axes: the first move after it begins the compensation.
+void checkFirstMove(const NcProgram& nc, std::size_t at, const ir::Word& code, const char* name,
+                    Report& report) {
+  const auto& body = nc.program.body;
+  for (std::size_t i = at + 1; i < body.size(); ++i) {
+    if (std::holds_alternative<ir::Comment>(body[i].node)) continue;
+    const auto* block = std::get_if<ir::NcBlock>(&body[i].node);
+    if (block == nullptr || hasCode(*block, 'G', 40) || body[i].blockDelete != 0) return;
+    if (axesOf(*block) == 0) continue;
+    if (hasCode(*block, 'G', 2) || hasCode(*block, 'G', 3))
+      report
+          .at(body[i].origin.range(),
+              "{} begins in this block, an arc, as the block that has it does not move; the control stops "
+              "with "
+              "alarm 34; begin it in a straight move before",
+              name)
+          .note(code.range, std::string(name) + " is here");
+    return;
+  }
+}
+
 void check(const NcProgram& nc, Report& report) {
   const auto& facts = nc.machining();
   for (std::size_t i = 0; i < facts.size(); ++i) {
@@ -42,6 +63,8 @@ void check(const NcProgram& nc, Report& report) {
                 "{} begins in the block of an arc; the control stops with alarm 34; begin it in a straight "
                 "move before",
                 name);
+    else if (axesOf(*block) == 0 && facts[i]->mode(Mode::Compensation).on == Certain::No)
+      checkFirstMove(nc, i, *code, name, report);
   }
 }
 

@@ -58,8 +58,21 @@ bool takesOffset(const ir::ProgramStatement& statement) {
 }
 
 // The block before, labels, comments and stores aside, is a G91 without a move: these are meant as distances.
+// So are the holes of a canned cycle that begins after it.
 bool isAnnounced(const std::vector<ir::ProgramStatement>& body, std::size_t at) {
   enum class Step : std::uint8_t { GoOn, Yes, No };
+  const auto has = [&](const ir::NcBlock& block) { return firstWord(block, "GM") != nullptr; };
+  std::size_t cycle = at;
+  while (cycle > 0) {
+    const auto* block = std::get_if<ir::NcBlock>(&body[cycle - 1].node);
+    if (block == nullptr) break;
+    --cycle;
+    if (cycleOf(*block) != 0) {
+      at = cycle;
+      break;
+    }
+    if (has(*block)) break;
+  }
   while (at-- > 0) {
     const Step step = ir::match(
         body[at],

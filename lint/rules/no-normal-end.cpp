@@ -2,6 +2,7 @@
 #include "lint/NcProgram.h"
 #include "lint/OffsetStates.h"
 #include "lint/Skips.h"
+#include "lint/Turning.h"
 
 #include <algorithm>
 
@@ -66,6 +67,24 @@ bool isLast(const NcProgram& nc) {
   return !programs.empty() && programs.back().name && programs.back().name->number == nc.program.number;
 }
 
+// It changes a tool and starts and stops the spindle: no excerpt, which has one or the other.
+bool machines(const ir::Program& program) {
+  bool tool = false, turns = false;
+  for (const ir::ProgramStatement& statement : program.body) {
+    const auto* block = std::get_if<ir::NcBlock>(&statement.node);
+    if (block == nullptr) continue;
+    tool = tool || hasCode(*block, 'M', 6);
+    turns = turns || hasCode(*block, 'M', 3) || hasCode(*block, 'M', 4);
+  }
+  return tool && turns;
+}
+
+// The spindle or the coolant is switched off last.
+bool stops(const ir::ProgramStatement& statement) {
+  const auto* block = std::get_if<ir::NcBlock>(&statement.node);
+  return block != nullptr && (hasCode(*block, 'M', 5) || hasCode(*block, 'M', 9));
+}
+
 void check(const NcProgram& nc, Report& report) {
   const ir::Program& program = nc.program;
   if (program.nameKind == ir::Program::NameKind::None || program.body.empty()) return;
@@ -111,6 +130,11 @@ void check(const NcProgram& nc, Report& report) {
         "has "
         "opened: a transfer that broke off leaves this; the control waits for more, or stops with an alarm, "
         "with the spindle and the modes as they are; send the program again");
+  else if (past != nullptr && isLast(nc) && !nc.file.markFirst && (machines(program) || stops(*past)) &&
+           !isForLathe(nc.project))
+    report.at(past->origin.range(),
+              "the text ends after this block, without M30, M2 or M99; the control stops with an alarm, or "
+              "waits for more with the modes as they are; end it with M30, a subprogram with M99");
   // One that its own file calls is there as a whole.
   else if (past != nullptr &&
            calledIn(nc.file, nc.project).contains(static_cast<std::uint32_t>(nc.program.number)))

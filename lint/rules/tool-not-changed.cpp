@@ -1,5 +1,7 @@
 #include "lint/NcProgram.h"
 
+#include <set>
+
 namespace dotek::lint::rule {
 namespace {
 
@@ -29,6 +31,8 @@ void check(const NcProgram& nc, Report& report) {
   int first = -1;                   // tool that the program begins with
   const ir::Word* called = nullptr; // by T, and not put in
   bool cuts = false;                // something feeds after it
+  bool stages = false;              // a tool was fetched during a cut and put in afterwards
+  std::set<double> waiting;         // tools so fetched
   for (std::size_t i = 0; i < facts.size(); ++i) {
     // What a called program changes is not known.
     if (callOf(body[i]) != nullptr) return;
@@ -38,20 +42,26 @@ void check(const NcProgram& nc, Report& report) {
     if (tool != nullptr) {
       const double* number = ir::constantValue(tool->value);
       if (number == nullptr || !(*number >= 0 && *number < 1e9)) return;
+      const bool changes = codeWord(*block, 'M', 6) != nullptr;
+      if (called != nullptr && cuts) waiting.insert(*ir::constantValue(called->value));
+      stages = stages || (changes && waiting.contains(*number));
       const bool again = first >= 0 && *number == first;
       if (first < 0) first = static_cast<int>(*number);
       // The first tool is fetched again for the next part.
       called = *number > 0 && !again ? tool : nullptr;
       cuts = false;
     }
-    if (codeWord(*block, 'M', 6) != nullptr) called = nullptr;
+    if (codeWord(*block, 'M', 6) != nullptr) {
+      stages = stages || (called != nullptr && tool == nullptr && cuts);
+      called = nullptr;
+    }
     const Machining now = within(*block, i, *facts[i]);
     const bool starts = codeWord(*block, 'M', 3) != nullptr || codeWord(*block, 'M', 4) != nullptr ||
                         codeWord(*block, 'G', 43) != nullptr;
     cuts = cuts ||
            (called != nullptr && tool == nullptr && starts && now.tool != *ir::constantValue(called->value));
   }
-  if (called == nullptr || !cuts) return;
+  if (called == nullptr || !cuts || stages) return; // the last one is fetched for the next part
   report.at(called->range,
             "`T{}` calls a tool, and no M6 puts it in before the program goes on; the tool before cuts in "
             "its place; "

@@ -81,6 +81,17 @@ void checkCall(const macrob::Words& words, const Project& project, Wrong& found)
 }
 
 // G10 L2 P0 to P6: the external offset and G54 to G59.
+// G54.1 takes the number of the additional system from its block.
+void checkAdditional(const macrob::Words& words, Report& report) {
+  const auto* code = macrob::findCode(words, 'G', 54.1);
+  if (code == nullptr || macrob::callOf(words)) return;
+  for (const auto& word : words.words)
+    if (word.address == 'P') return;
+  report.at(code->range,
+            "G54.1 has no P, so which additional work offset is meant is open; the control takes "
+            "P1 or stops with an alarm; write P");
+}
+
 void checkTable(const macrob::Words& words, const Project& project, Report& report) {
   if (macrob::findCode(words, 'G', 10) == nullptr || macrob::findCode(words, 'L', 2) == nullptr) return;
   for (const auto& word : words.words) {
@@ -100,6 +111,7 @@ void check(const Project& project, Report& report) {
         if (const auto* words = std::get_if<macrob::Words>(&block.body)) {
           checkCall(*words, project, found);
           checkTable(*words, project, report);
+          checkAdditional(*words, report);
         }
     found.tell(project.sources, report);
   }
