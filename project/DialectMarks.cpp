@@ -31,6 +31,9 @@ constexpr std::array<TongueFacts, kTongues> kFacts = {{
     {Fadal, "Fadal format 1", 6, true, "its R variables and `#` lines are `#..`, IF and GOTO of Macro B"},
     {Eding, "Eding CNC", 5, true,
      "its SUB and GOSUB are programs of their own and M98, IF with ELSE is IF and GOTO of Macro B"},
+    {WireEdm, "a wire EDM (AccuteX and the like)", 5, true, "its E codes choose conditions of the generator"},
+    {Parameters, "the parameter memory of a control, not for running", 8, true,
+     "the control reads it in a screen of its own; leave it out of a folder of programs"},
     {Script, "source code of another language", 2, false, ""},
     {Markdown, "no language that Dotek reads", 2, false, ""},
 }};
@@ -216,6 +219,71 @@ bool isEdingWord(View body) {
          body.starts_with("DLGMSG \"") || body.starts_with("WARNMSG \"") || body.starts_with("ERRMSG \"") ||
          body.starts_with("MSG \"");
 }
+// `%00227` alone, and `T1.1`: a tool with its offset after a point.
+bool beginsFagorProgram(View body) {
+  return body.starts_with('%') && digitsAt(body, 1) == 5 && body.size() == 6;
+}
+bool choosesByPoint(View body) {
+  if (!body.starts_with('T')) return false;
+  const std::size_t tool = digitsAt(body, 1);
+  if (tool == 0 || body.size() < tool + 3 || body[1 + tool] != '.') return false;
+  const std::size_t end = tool + 2 + digitsAt(body, tool + 2);
+  return end > tool + 2 && (end == body.size() || body[end] == ' ');
+}
+// `_PROFILE(1,0,"",,)`
+bool callsByName(View body) {
+  const std::size_t open = body.find('(');
+  if (open == View::npos || open < 4 || !body.ends_with(')')) return false;
+  const View name = body.substr(0, open);
+  return name.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789") == View::npos && !isDigit(name[0]) &&
+         name.find('_') != View::npos && body.find_first_of(",\"", open) != View::npos;
+}
+// `TEST=1`; `SPEED=#101` is none.
+bool givesName(View body) {
+  const std::size_t letters = lettersAt(body, 0);
+  if (letters < 3 || body.find_first_of("#[") != View::npos) return false;
+  return trimmedText(body.substr(letters)).starts_with('=');
+}
+bool isAlone(View body, View word) {
+  return body == word || (body.starts_with(word) && body[word.size()] == ' ');
+}
+bool resetsOffset(View body) {
+  return isAlone(body, "G500");
+}
+bool endsSubprogram(View body) {
+  return body == "M17";
+}
+// `M4000 P11 S"Face"`
+bool takesText(View body) {
+  if (!body.starts_with('M') || digitsAt(body, 1) == 0) return false;
+  const std::size_t quote = body.find('"');
+  return quote != View::npos && quote > 2 && isLetter(body[quote - 1]) && body[quote - 2] == ' ';
+}
+// `E001=10 17 16`
+bool givesCondition(View body) {
+  return body.starts_with('E') && digitsAt(body, 1) == 3 && body.size() > 5 && body[4] == '=' &&
+         isDigit(body[5]);
+}
+// `N1020A1P88A2P90`, `N0000P00000010`: without the number.
+bool isParameter(View body) {
+  std::size_t at = 0, values = 0;
+  while (at < body.size()) {
+    if (View("QALSTK").find(body[at]) != View::npos) {
+      const std::size_t which = digitsAt(body, at + 1);
+      if (which == 0) return false;
+      at += 1 + which;
+      continue;
+    }
+    if (body[at] != 'P') return false;
+    std::size_t sign = at + 1 < body.size() && body[at + 1] == '-' ? 1 : 0;
+    std::size_t end = at + 1 + sign + digitsAt(body, at + 1 + sign);
+    if (end < body.size() && body[end] == '.') end += 1 + digitsAt(body, end + 1);
+    if (end == at + 1 + sign) return false;
+    ++values;
+    at = end;
+  }
+  return values > 0;
+}
 bool isHeading(View line) {
   if (!line.starts_with('#')) return false;
   const View rest = line.substr(std::min(line.find_first_not_of('#'), line.size()));
@@ -278,6 +346,10 @@ constexpr std::array kMarks = {
     Mark{Sinumerik, Place::Shape, "R1=", 2, givesRParameter},
     Mark{Sinumerik, Place::Shape, "X=", 1, givesByEquals},
     Mark{Sinumerik, Place::Shape, "LABEL:", 2, isLabel},
+    Mark{Sinumerik, Place::Shape, "_NAME(..)", 4, callsByName},
+    Mark{Sinumerik, Place::Shape, "NAME=", 1, givesName},
+    Mark{Sinumerik, Place::Shape, "G500", 2, resetsOffset},
+    Mark{Sinumerik, Place::Shape, "M17", 1, endsSubprogram},
     Mark{Heidenhain, Place::Begin, "BEGIN PGM", 5},
     Mark{Heidenhain, Place::Begin, "END PGM", 5},
     Mark{Heidenhain, Place::Begin, "TOOL CALL", 4},
@@ -339,6 +411,7 @@ constexpr std::array kMarks = {
     Mark{RepRap, Place::Begin, "M350 X", 2},
     Mark{RepRap, Place::Begin, "M569 P", 2},
     Mark{RepRap, Place::Begin, "M563 P", 2},
+    Mark{RepRap, Place::Shape, "M4000 S\"", 4, takesText},
     Mark{Printer, Place::Begin, "M104 S", 3},
     Mark{Printer, Place::Begin, "M109 S", 3},
     Mark{Printer, Place::Begin, "M140 S", 3},
@@ -374,6 +447,10 @@ constexpr std::array kMarks = {
     Mark{Fagor, Place::Word, "V.P.", 4},
     Mark{Fagor, Place::Word, "V.S.", 4},
     Mark{Fagor, Place::Raw, "(P1=..)", 3, isFagorStatement},
+    Mark{Fagor, Place::Shape, "%00227", 3, beginsFagorProgram},
+    Mark{Fagor, Place::Shape, "T1.1", 2, choosesByPoint},
+    Mark{WireEdm, Place::Shape, "E001=", 3, givesCondition},
+    Mark{Parameters, Place::Shape, "P00000010", 2, isParameter},
     Mark{Fadal, Place::Shape, "# R1=", 3, isFadalLine},
     Mark{Eding, Place::Shape, "GOSUB", 4, isEdingWord},
     Mark{Script, Place::Begin, "FUNCTION ", 4},

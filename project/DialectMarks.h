@@ -21,10 +21,12 @@ enum class Tongue : std::uint8_t {
   Fagor,
   Fadal,
   Eding,
+  WireEdm,
+  Parameters,
   Script,
   Markdown,
 };
-inline constexpr std::size_t kTongues = 14;
+inline constexpr std::size_t kTongues = 16;
 
 struct TongueFacts {
   Tongue tongue;

@@ -221,10 +221,24 @@ private:
     return syntax(here(), "only a variable takes a value; write `#1=` with its number");
   }
 
+  // `(A (B) C)`: the rest of what was meant as one comment.
+  bool followsNestedComment() const {
+    const std::size_t begin = here().begin;
+    std::size_t before = begin;
+    while (before > 0 && (source_[before - 1] == ' ' || source_[before - 1] == '\t'))
+      --before;
+    if (before == 0 || source_[before - 1] != ')') return false;
+    const std::size_t close = source_.find_first_of(")(\r\n", begin);
+    return close != std::string_view::npos && source_[close] == ')';
+  }
+
   Diagnostic byStatement(std::size_t begin, const std::string& text) const {
     switch (type(begin)) {
     case Lexer::KW_IF:
       if (at_ == begin + 1) return syntax(here(), "the condition of IF is in brackets, `IF[#1EQ2]`");
+      if (followsNestedComment())
+        return syntax(here(), "a comment ends at its first `)`, so this is no part of it; the control stops "
+                              "with an alarm; take the inner brackets out");
       return syntax(here(),
                     "after its condition, IF takes `GOTO` with a number, or `THEN` with one macro statement");
     case Lexer::KW_WHILE:

@@ -157,12 +157,39 @@ private:
     erase(i + 1, 3);
   }
 
+  // Letters in a row that are no addresses with their zeros: `[your position]`, not `GOXOYO`.
+  bool isInSentence(std::size_t i) const {
+    constexpr std::size_t kShort = 4;
+    std::size_t first = i, last = i;
+    const auto letter = [&](std::size_t at) {
+      return (isAddress(type(at)) || type(at) == Lexer::ADDRESS_O) &&
+             tokens_[at].end == tokens_[at].begin + 1;
+    };
+    while (first > 0 && letter(first - 1) && adjacent(first - 1))
+      --first;
+    while (last + 1 < tokens_.size() && letter(last + 1) && adjacent(last))
+      ++last;
+    if (last - first + 1 < kShort) return false;
+    for (std::size_t at = first; at <= last; ++at)
+      if ((type(at) == Lexer::ADDRESS_O) != ((at - first) % 2 == 1)) return true;
+    return false;
+  }
+
+  // `M99O0810`: the header of the next program on the line of an end.
+  bool followsEnd(std::size_t i) const {
+    if (i < 2 || tokens_[i - 2].text != "M" || i + 1 >= tokens_.size() || type(i + 1) != Lexer::NUMBER)
+      return false;
+    const std::string& code = tokens_[i - 1].text;
+    return (code == "99" || code == "30" || code == "2" || code == "02") && tokens_[i + 1].text.size() >= 3;
+  }
+
   // `GO X5.`, `AO.`, `1O.`: O where a digit belongs.
   void letterO(std::size_t i) {
     if (type(i) != Lexer::ADDRESS_O || i == 0) return;
     const bool behindNumber = type(i - 1) == Lexer::NUMBER && adjacent(i - 1);
     if (!behindNumber && !isAddress(type(i - 1)) && !expectsValue(type(i - 1)) && type(i - 1) != Lexer::HASH)
       return;
+    if (isInSentence(i) || (behindNumber && followsEnd(i))) return;
     SourceRange letters = rangeOf(tokens_[i]);
     std::vector<Edit> edits = {{letters, "0"}};
     Tok number{Lexer::NUMBER, tokens_[i].begin, tokens_[i].end, "0"};

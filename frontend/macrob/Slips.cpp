@@ -62,11 +62,12 @@ constexpr std::array<View, 22> kLongKeywords = {
     "ATAN", "SQRT", "ABS",   "ROUND", "FIX", "FUP", "POPEN", "PCLOS", "DPRNT", "BPRNT", "SETVN"};
 
 View signMeant(View sign) {
-  constexpr std::array<Spelling, 23> kSigns = {
-      {{"=", "EQ"},         {"==", "EQ"}, {"===", "EQ"}, {"<", "LT"},     {">", "GT"},    {"<=", "LE"},
-       {"=<", "LE"},        {">=", "GE"}, {"=>", "GE"},  {"<>", "NE"},    {"><", "NE"},   {"!=", "NE"},
-       {"=!", "NE"},        {"~=", "NE"}, {"&", "AND"},  {"&&", "AND"},   {"|", "OR"},    {"||", "OR"},
-       {"^", "POW[..,..]"}, {"%", "MOD"}, {":=", "="},   {"+=", "=#..+"}, {"-=", "=#..-"}}};
+  constexpr std::array<Spelling, 24> kSigns = {
+      {{"=", "EQ"},   {"==", "EQ"}, {"===", "EQ"},   {"<", "LT"},         {">", "GT"},
+       {"<=", "LE"},  {"=<", "LE"}, {">=", "GE"},    {"=>", "GE"},        {"<>", "NE"},
+       {"><", "NE"},  {"!=", "NE"}, {"=!", "NE"},    {"~=", "NE"},        {"&", "AND"},
+       {"&&", "AND"}, {"|", "OR"},  {"||", "OR"},    {"^", "POW[..,..]"}, {"**", "POW[..,..]"},
+       {"%", "MOD"},  {":=", "="},  {"+=", "=#..+"}, {"-=", "=#..-"}}};
   const auto at =
       std::find_if(kSigns.begin(), kSigns.end(), [&](const Spelling& s) { return s.written == sign; });
   return at == kSigns.end() ? View() : at->meant;
@@ -82,6 +83,7 @@ public:
     if (auto out = unread()) return out;
     if (auto out = header()) return out;
     if (auto out = flowWord()) return out;
+    if (auto out = glued()) return out;
     if (auto out = sign()) return out;
     if (auto out = spelling()) return out;
     if (auto out = roundBrackets()) return out;
@@ -234,6 +236,32 @@ private:
           }
           return std::nullopt;
         });
+  }
+
+  // `M30%`, `M99O0810`, `TAN 30`
+  std::optional<Diagnostic> glued() const {
+    for (std::size_t i = 0; i < tokens_.size(); ++i) {
+      if (i > 0 && i + 1 == tokens_.size() && depthAt(i) == 0 && source_[tokens_[i].begin] == '%' &&
+          type(i - 1) == Lexer::NUMBER)
+        return makeDiagnostic<diag::SyntaxError>(
+            rangeOf(i),
+            "`%` begins and ends the text of programs and stays alone on its line; write it on the "
+            "next line");
+      if (type(i) == Lexer::ADDRESS_O && i > 1 && type(i - 1) == Lexer::NUMBER && isAddress(type(i - 2)) &&
+          (source_[tokens_[i - 2].begin] & ~0x20) == 'M' && type(i + 1) == Lexer::NUMBER)
+        return makeDiagnostic<diag::SyntaxError>(
+            range(tokens_[i].begin, tokens_[i + 1].end),
+            "the number of a program begins it, on a line of its own; the control takes this one for a word "
+            "of the block before, or stops with an alarm; write it on the next line");
+      if (type(i) == Lexer::FUNCTION && type(i + 1) == Lexer::NUMBER)
+        return make<diag::SyntaxError>(range(tokens_[i].begin, tokens_[i + 1].end),
+                                       "put the operand into brackets",
+                                       {{range(tokens_[i].begin, tokens_[i + 1].end),
+                                         fmt::format("{}[{}]", tokens_[i].text, tokens_[i + 1].text)}},
+                                       fmt::format("the operand of a function is in brackets; write `{}[{}]`",
+                                                   tokens_[i].text, tokens_[i + 1].text));
+    }
+    return std::nullopt;
   }
 
   std::optional<Diagnostic> sign() const {
