@@ -33,6 +33,7 @@ void refuseCache(const Raw& raw) {
   const char* const other = raw.fix                      ? "--fix, which changes files"
                             : !raw.writeBaseline.empty() ? "--write-baseline, which writes a file"
                             : !raw.changedSince.empty()  ? "--changed-since, which asks git"
+                            : !raw.programs.empty()      ? "--programs, which reads further folders"
                             : raw.followLinks            ? "--follow-links, which leaves the folders"
                                                          : nullptr;
   if (other != nullptr) throw UsageError(std::string("--cache keeps no result of ") + other);
@@ -70,6 +71,8 @@ void addLint(CLI::App& app, Raw& raw) {
   addSeveral(*lint, "--field", raw.field, "the post's field FIELD is the macro's variable VARIABLE",
              "FIELD=VARIABLE");
   addValues(*lint, raw);
+  addFolders(*lint, "--programs", raw.programs,
+             "folder of programs that can be called: read, and not reported on");
   addSeveral(*lint, "--select", raw.select, "only this code, or all", "CODE");
   addSeveral(*lint, "--ignore", raw.ignore, "not this code", "CODE");
   lint->add_option("--fail-on", raw.failOn, "exit with 1 from this severity on (warning)")
@@ -103,6 +106,7 @@ driver::LintOptions lintOf(const Raw& raw) {
   out.fix = raw.fix;
   if (!raw.baseline.empty()) out.baseline = raw.baseline;
   if (!raw.writeBaseline.empty()) out.writeBaseline = raw.writeBaseline;
+  out.programs = raw.programs;
   out.changedSince = raw.changedSince;
   out.listSkipped = raw.listSkipped;
   out.force = raw.force;

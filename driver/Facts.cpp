@@ -4,6 +4,7 @@
 #include "project/Lowering.h"
 #include "project/Settings.h"
 #include "stdlib/ControlFacts.h"
+#include "stdlib/ControlFiles.h"
 #include "stdlib/DataFiles.h"
 #include "stdlib/MacroSet.h"
 #include "support/Printable.h"
@@ -123,7 +124,9 @@ Outcome macrosOf(const std::string& name, Session& session) {
 } // namespace
 
 Outcome listFacts(const std::string& what, const std::string& name, const CommonOptions& options) {
-  Outcome outcome = guarded(options, [&](Session& session) {
+  CommonOptions withFile = options; // `list controls ./mine.toml`
+  if (what == "controls" && stdlib::isDataPath(name)) withFile.data.push_back(name);
+  Outcome outcome = guarded(withFile, [&](Session& session) {
     checkSettings({}, session);
     if (what == "controls") return factsOf(name, session);
     if (what == "macros") return macrosOf(name, session);

@@ -2,6 +2,7 @@
 #include "driver/ChangedFiles.h"
 #include "driver/ChangedTogether.h"
 #include "driver/Command.h"
+#include "driver/Companions.h"
 #include "driver/Driver.h"
 #include "driver/LintBaseline.h"
 #include "driver/LintFix.h"
@@ -79,12 +80,11 @@ public:
     }
     inputs_ = compilation_.load(options_.source, "");
     if (inputs_ == nullptr) return failed();
-    for (const std::string& path : options_.paths) {
-      std::error_code error;
-      if (fs::is_directory(path, error)) session_.addInputRoot(path);
-    }
+    for (const std::string& path : options_.paths)
+      if (std::error_code error; fs::is_directory(path, error)) session_.addInputRoot(path);
     for (const std::string& path : options_.paths)
       walk_.visit(path, session_.diagnostics());
+    companions_.walk(options_.programs, walk_, session_);
     if (walk_.ended()) {
       std::erase_if(session_.diagnostics().all(),
                     [](const Diagnostic& d) { return d.code != diag::TooManyFiles::code; });
@@ -194,10 +194,7 @@ private:
   }
 
   static std::string quoted(const std::vector<std::string>& paths) {
-    std::string out;
-    for (const std::string& path : paths)
-      out += (out.empty() ? "`" : ", `") + path + "`";
-    return out;
+    return fmt::format("`{}`", fmt::join(paths, "`, `"));
   }
 
   bool isWantedSomewhere(std::string_view code) {
@@ -301,6 +298,9 @@ private:
   }
 
   void file(const std::string& path, bool named) {
+    if (companions_.walks)
+      return companions_.take(path, session_, [this](const std::string& one) { read(one, InputKind::Nc); });
+    companions_.note(path);
     say("{} files read", checkedFiles_);
     if (!named && configs_.of(path)->exclude) {
       ++excluded_;
@@ -480,7 +480,8 @@ private:
     std::erase_if(all, [&](const Diagnostic& d) {
       if (isUsageCode(d.code) || d.code == diag::TooManyFindings::code) return false;
       return projects_.isExcluded(d.range.file) ||
-             !lint::isWanted(d.code, options_, projects_.configOf(d.range.file)) || isOfUnchanged(d);
+             !lint::isWanted(d.code, options_, projects_.configOf(d.range.file)) || isOfUnchanged(d) ||
+             companions_.has(d);
     });
     for (Diagnostic& d : all) {
       const auto& severity = projects_.configOf(d.range.file).severity;
@@ -510,6 +511,7 @@ private:
   lint::Projects projects_;
   InputWalk walk_;
   std::size_t checkedFiles_ = 0, excluded_ = 0;
+  Companions companions_;
   std::optional<std::set<std::string>> changed_; // names of --changed-since
   std::map<FileId, bool> isChanged_;
   std::optional<ChangedTogether> together_; // with those

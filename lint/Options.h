@@ -17,6 +17,8 @@ enum class FailOn : std::uint8_t { Note, Warning, Error, Never };
 
 struct LintOptions {
   std::vector<std::string> paths;
+  // Folders of programs that those of `paths` may call: read, and no finding in them is reported.
+  std::vector<std::string> programs;
   project::CommonOptions common;
   project::SourceOptions source;
   // Codes; nothing: what dotek.toml says, else all that are on by default. "all": every code.

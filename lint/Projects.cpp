@@ -131,6 +131,7 @@ Project& Projects::begin(const Settings& settings) {
     project.sets.insert(name);
   std::error_code error;
   project.analyses->wholeFolder =
+      !options_.programs.empty() ||
       std::any_of(options_.paths.begin(), options_.paths.end(),
                   [&](const std::string& path) { return std::filesystem::is_directory(path, error); });
   if (control == nullptr && blocks) {
