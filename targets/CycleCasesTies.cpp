@@ -92,9 +92,11 @@ void CaseRunner::runAtLimits(const Values& drawn, bool probeOn, CaseResult& resu
       verify::Case met = drawn.drawn;
       met.callers = false;
       met.values[field.name] = limit.value(turn);
+      rests_ = drawn.rests;
       const std::unique_ptr<Values> values = check(met, false);
+      rests_ = false;
       if (stopped_) return;
-      if (!values || values->rejected || !readPosted(*values)) continue;
+      if (!values || values->rejected || !readPosted(*values) || values->losesDigits) continue;
       values->part = drawn.part;
       sim::World tied(*values->part, probeFor(plan_, met));
       tied.setTie(limit.step() + kTie);

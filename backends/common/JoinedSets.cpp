@@ -1,6 +1,7 @@
 #include "backends/common/JoinedSets.h"
 
 #include "ir/CycleNames.h"
+#include "ir/Match.h"
 #include "ir/Walk.h"
 
 #include <algorithm>
@@ -61,25 +62,31 @@ struct After {
 // nullopt: no `set` of this axis alone by what the touch has found follows it.
 std::optional<After> afterTouch(const List& list, std::size_t at, ir::Axis axis) {
   After out;
+  enum class Step : std::uint8_t { Next, Ends, Sets };
   for (std::size_t i = at + 1; i < list.size(); ++i) {
-    if (std::holds_alternative<ir::Comment>(list[i].node) ||
-        std::holds_alternative<ir::ProbePower>(list[i].node))
-      continue;
-    if (const auto* assign = std::get_if<ir::Assign>(&list[i].node)) {
-      const auto* result = std::get_if<ir::MeasuredResult>(&assign->value->node);
-      if (result == nullptr) return std::nullopt;
-      out.found.insert(assign->variable);
-      if (result->name == positionAlong(axis)) out.places.insert(assign->variable);
-      continue;
-    }
-    const auto* call = std::get_if<ir::CallCycle>(&list[i].node);
-    if (call == nullptr || call->cycle != ir::kSetOffset || !call->setting || call->arguments.size() != 1)
-      return std::nullopt;
-    const auto* use = std::get_if<ir::VariableUse>(&call->arguments.front().value->node);
-    const std::size_t a = ir::indexOf(axis);
-    if (use == nullptr || !out.places.contains(use->variable) || !call->setting->axes[a] ||
-        reads(call->setting->nominal[a], out.found) || reads(call->setting->system, out.found))
-      return std::nullopt;
+    const Step step = ir::match(
+        list[i], [](const ir::OneOf<ir::Comment, ir::ProbePower> auto&) { return Step::Next; },
+        [&](const ir::Assign& assign) {
+          const auto* result = std::get_if<ir::MeasuredResult>(&assign.value->node);
+          if (result == nullptr) return Step::Ends;
+          out.found.insert(assign.variable);
+          if (result->name == positionAlong(axis)) out.places.insert(assign.variable);
+          return Step::Next;
+        },
+        [&](const ir::CallCycle& call) {
+          if (call.cycle != ir::kSetOffset || !call.setting || call.arguments.size() != 1) return Step::Ends;
+          const auto* use = std::get_if<ir::VariableUse>(&call.arguments.front().value->node);
+          const std::size_t a = ir::indexOf(axis);
+          const bool joins = use != nullptr && out.places.contains(use->variable) && call.setting->axes[a] &&
+                             !reads(call.setting->nominal[a], out.found) &&
+                             !reads(call.setting->system, out.found);
+          return joins ? Step::Sets : Step::Ends;
+        },
+        [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Port, ir::Print, ir::Move,
+                           ir::Measure, ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell,
+                           ir::Stop, ir::Alarm, ir::OpaqueBlock> auto&) { return Step::Ends; });
+    if (step == Step::Ends) return std::nullopt;
+    if (step == Step::Next) continue;
     out.set = i;
     return out;
   }
