@@ -27,6 +27,7 @@
 #include "targets/Target.h"
 #include "targets/Verification.h"
 #include "verify/Bounds.h"
+#include "verify/PathPieces.h"
 #include "verify/Rehearsal.h"
 
 #include <algorithm>

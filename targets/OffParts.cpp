@@ -83,11 +83,16 @@ std::string textOf(const Off& off) {
   return fmt::format("it turned by {} degrees more", numberText(turned));
 }
 
+// A macro has stopped it because a result is beyond a limit of the call.
+bool isOfLimit(const verify::Record& source) {
+  return source.ending == verify::Ending::Alarm && !source.alarmKind.empty() &&
+         !verify::ownTextOf(source.alarmKind).empty();
+}
+
 // What it does can be held against another set's macros: it has found all its surfaces.
 bool counts(const verify::Record& source) {
   return source.ending == verify::Ending::Finished ||
-         (source.ending == verify::Ending::Alarm &&
-          (source.alarmKind.empty() || !verify::ownTextOf(source.alarmKind).empty()));
+         (source.ending == verify::Ending::Alarm && (source.alarmKind.empty() || isOfLimit(source)));
 }
 
 // What moves, and how far.
@@ -191,14 +196,18 @@ std::vector<verify::Difference> compareTies(const TargetCase& now, const Moving&
   std::vector<verify::Difference> found;
   if (turns.size() > kMostTurns) return found;
   for (const long turn : turns) {
-    // Where a search ends two macros do not share the last digit.
-    if (!verify::meetsEach(*grown.at(turn)) || !verify::meetsEach(*grown.at(turn + 1))) continue;
-    grown.look(turn, kTie, [&](const verify::Record& meant, sim::World& world) {
+    // Where a search ends two macros do not share the last digit. A limit of a call stops what is beyond it,
+    // so there the run counts that goes on.
+    const verify::Record &one = *grown.at(turn), &other = *grown.at(turn + 1);
+    const bool meets = verify::meetsEach(one), meetsNext = verify::meetsEach(other);
+    if (!(meets && meetsNext) && !(meets && isOfLimit(other)) && !(meetsNext && isOfLimit(one))) continue;
+    const long place = meets ? turn : turn + 1;
+    grown.look(place, kTie, [&](const verify::Record& meant, sim::World& world) {
       if (counts(meant)) found = compare(meant, world);
     });
-    for (verify::Difference& one : found)
-      one.text = fmt::format("with {} {} mm farther, so that a measured value is exactly a limit: {}",
-                             moving.what, numberText(Grown::millimetres(turn)), one.text);
+    for (verify::Difference& each : found)
+      each.text = fmt::format("with {} {} mm farther, so that a measured value is exactly a limit: {}",
+                              moving.what, numberText(Grown::millimetres(place)), each.text);
     if (!found.empty()) return found;
   }
   return found;
