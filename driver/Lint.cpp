@@ -92,7 +92,7 @@ public:
     }
     if (checkedFiles_ == 0 && !session_.diagnostics().hasErrors() && !options_.paths.empty())
       session_.diagnostics().report<diag::NothingRead>(
-          {}, quoted(options_.paths) +
+          {}, fmt::format("`{}`", fmt::join(options_.paths, "`, `")) +
                   (excluded_ == 0 ? "" : fmt::format(" beside the {} that dotek.toml excludes", excluded_)));
     const std::deque<lint::Project>& projects = projects_.gather(*inputs_, sufReadings_, checked_, posts_);
     if (changed_) together_.emplace(projects, *changed_, [this](FileId file) { return isChanged(file); });
@@ -191,10 +191,6 @@ private:
                 : "";
     if (!passedOver_.empty()) out += (out.empty() ? "" : "\n") + passedOver_;
     return out;
-  }
-
-  static std::string quoted(const std::vector<std::string>& paths) {
-    return fmt::format("`{}`", fmt::join(paths, "`, `"));
   }
 
   bool isWantedSomewhere(std::string_view code) {

@@ -373,9 +373,9 @@ TEST_CASE("Haas NGC: what it has otherwise than the Fanuc that it extends") {
   CHECK(haas.variables.toolWear == 2200);
   CHECK_FALSE(haas.variables.toolWearToo);
   CHECK_FALSE(haas.window);
-  REQUIRE(haas.callCodes.size() == 1); // M97 P: a block of the same program
+  REQUIRE(haas.callCodes.size() == 2); // M97 P and M98 Q: a block of the same program
   CHECK(localCallAddress(haas, 'M', 97) == 'P');
-  CHECK(localCallAddress(haas, 'M', 98) == 0);
+  CHECK(localCallAddress(haas, 'M', 98) == 'Q');
   CHECK(localCallAddress(control("fanuc-6m"), 'M', 98) == 0);
   CHECK(haas.isCommon(10200));
   CHECK_FALSE(haas.isCommon(10150)); // another name of #150
