@@ -98,6 +98,7 @@ std::span<const Check<CheckedProgram>* const> programChecks() {
       &wordNotTakenCheck,
       &codesExcludeCheck,
       &arcWithoutCentreCheck,
+      &modeAfterAxisCheck,
       &wearInGeometryCheck,
       &systemVariableUnknownCheck,
       &pointLostCheck,

@@ -40,6 +40,7 @@ struct FlowFindings {
   struct Dead {
     SourceRange range, jump;
     std::string extent; // "up to N20"
+    std::string end;    // "M30" where the program ends before it; "": a jump passes over it
   };
   std::vector<Dead> dead;
 };
@@ -139,6 +140,7 @@ DOTEK_CHECK(CheckedProgram, wordRepeated, "word-repeated", Warning);
 DOTEK_CHECK(CheckedProgram, wordNotTaken, "word-not-taken", Warning);
 DOTEK_CHECK(CheckedProgram, codesExclude, "codes-exclude", Warning);
 DOTEK_CHECK(CheckedProgram, arcWithoutCentre, "arc-without-centre", Warning);
+DOTEK_CHECK(CheckedProgram, modeAfterAxis, "mode-after-axis", Warning);
 DOTEK_CHECK(CheckedProgram, wearInGeometry, "wear-in-geometry", Warning);
 DOTEK_CHECK(CheckedProgram, systemVariableUnknown, "system-variable-unknown", Warning);
 // What the modes before a block make of it.

@@ -28,7 +28,7 @@ bool isPlain(double code) {
 }
 
 // Codes that are in their block only and take its words: dwell, data, reference points, skip, shifts.
-constexpr std::array kOneShot = {4.0, 10.0, 28.0, 29.0, 30.0, 31.0, 52.0, 53.0, 92.0};
+constexpr std::array kOneShot = {4.0, 10.0, 27.0, 28.0, 29.0, 30.0, 31.0, 52.0, 53.0, 92.0};
 
 } // namespace
 
@@ -366,6 +366,30 @@ void cycleBesideMotion(const Words& words, Report& report) {
 
 namespace {
 
+// G2 or G3 beside a code that takes the end of the arc.
+void arcBesideOneShot(const Words& words, Report& report) {
+  const nc::Word *arc = nullptr, *other = nullptr;
+  bool hasPlane = false;
+  for (const nc::Word& word : words.words) {
+    const auto code = word.address == 'G' ? literal(word) : std::nullopt;
+    if (!code) continue;
+    if (isOneOf(*code, {2, 3})) arc = &word;
+    if (isOneOf(*code, {10, 27, 28, 29, 30, 31, 53, 92}) && other == nullptr) other = &word;
+    hasPlane = hasPlane || isOneOf(*code, {17, 18, 19});
+  }
+  if (arc == nullptr || other == nullptr) return;
+  const double code = *literal(*other);
+  report
+      .at(other->range,
+          "`{}` and `{}` in one block: the second takes the axis words, so no arc is made, or the control "
+          "stops with an alarm; {}give each a block of its own",
+          wordText(*arc), wordText(*other),
+          !hasPlane && isOneOf(code, {27, 28, 29})
+              ? fmt::format("write `G{}` if the plane is meant, or ", static_cast<int>(code) - 10)
+              : "")
+      .note(arc->range, "the arc");
+}
+
 // Codes of which one at a time is in force. Those of canned cycles are looked at elsewhere.
 struct Group {
   char letter;
@@ -435,38 +459,8 @@ void codesExclude(const CheckedProgram& input, Report& report) {
       if (first == nullptr) first = &word;
     }
     cycleBesideMotion(*words, report);
+    arcBesideOneShot(*words, report);
     codesOfOneGroup(*words, report);
-  }
-}
-
-void arcWithoutCentre(const CheckedProgram& input, Report& report) {
-  for (const Block& block : input.program.blocks) {
-    const auto* words = std::get_if<Words>(&block.body);
-    if (words == nullptr || block.repaired) continue; // half of it may be on the next line
-    const nc::Word* arc = nullptr;
-    bool other = false;
-    for (const nc::Word& word : words->words) {
-      const auto code = word.address == 'G' ? literal(word) : std::nullopt;
-      const bool isArc = code && isOneOf(*code, {2, 3});
-      if (isArc) arc = &word;
-      other = other || (word.address == 'G' && !isArc && !(code && isPlain(*code)));
-    }
-    if (arc == nullptr || other || !hasAny(*words, "XYZUVW")) continue;
-    const nc::Word* radius = findWord(*words, 'R');
-    if (radius != nullptr && literal(*radius) == 0.0)
-      report.at(radius->range, "the arc has the radius 0; the control stops with an alarm; write the radius");
-    else if (const nc::Word* centre = radius == nullptr ? nullptr : findAnyOf(*words, "IJK");
-             centre != nullptr && centre->value != nullptr && literal(*centre) && literal(*centre) != 0.0)
-      report.at(
-          centre->range,
-          "`{}` beside `{}`: the arc has a centre and a radius; the control takes the radius alone; leave "
-          "one of them out",
-          wordText(*centre), wordText(*radius));
-    else if (!hasAny(*words, "IJKR"))
-      report.at(
-          arc->range,
-          "the arc has neither a centre (I, J, K) nor a radius (R); the control stops with alarm 22 or moves "
-          "straight; write one of them, or G1");
   }
 }
 

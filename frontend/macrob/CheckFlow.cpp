@@ -304,14 +304,15 @@ private:
     reach(0);
     for (const std::size_t at : locals_)
       reach(at);
-    if (incomplete_ || computed_)
+    if (incomplete_ || computed_ || namesBlocks())
       for (const auto& [number, blocks] : numbered_)
         for (const std::size_t at : blocks)
           reach(at);
     while (!work.empty()) {
       const std::size_t at = work.back();
       work.pop_back();
-      const bool always = std::holds_alternative<Goto>(block(at).body) && !block(at).blockDelete;
+      const bool always = (std::holds_alternative<Goto>(block(at).body) || endOf(block(at)) != nullptr) &&
+                          !block(at).blockDelete;
       if (const Goto* jump = gotoOf(block(at)))
         if (const auto number = numberOf(*jump)) reach(targetOf(at, *number));
       if (!always) reach(at + 1);
@@ -321,15 +322,36 @@ private:
         ++at;
         continue;
       }
+      const nc::Word* end = at == 0 ? nullptr : endOf(block(at - 1));
       std::size_t behind = at;
       std::size_t first = kNone;
       for (; behind < count && !reached[behind]; ++behind)
-        if (first == kNone && doesSomething(block(behind))) first = behind;
+        if (first == kNone && (doesSomething(block(behind)) ||
+                               (end != nullptr && std::holds_alternative<End>(block(behind).body))))
+          first = behind;
       if (first != kNone && at > 0)
         found_.dead.push_back({block(first).range, block(at - 1).range,
-                               behind < count ? "up to " + nameOf(behind) : "to the end of the program"});
+                               behind < count ? "up to " + nameOf(behind) : "to the end of the program",
+                               end == nullptr ? "" : wordText(*end)});
       at = behind;
     }
+  }
+
+  // M30, M2 or M99; nullptr: the program goes on.
+  static const nc::Word* endOf(const Block& one) {
+    const auto* words = std::get_if<Words>(&one.body);
+    if (words == nullptr || one.repaired) return nullptr;
+    for (const double code : {30.0, 2.0, 99.0})
+      if (const nc::Word* word = findCode(*words, 'M', code)) return word;
+    return nullptr;
+  }
+
+  // Something may go to a block by a word: M98 Q, M97 P, contours of a lathe, M99 P of what is called.
+  bool namesBlocks() const {
+    return std::any_of(program_.blocks.begin(), program_.blocks.end(), [](const Block& one) {
+      const auto* words = std::get_if<Words>(&one.body);
+      return words != nullptr && hasAny(*words, "PQ");
+    });
   }
 
   std::string nameOf(std::size_t at) const {
@@ -527,6 +549,15 @@ bool isSwitch(const CheckedProgram& input, SourceRange jump) {
 void blockNeverRuns(const CheckedProgram& input, Report& report) {
   for (const FlowFindings::Dead& one : input.flow.dead) {
     if (isSwitch(input, one.jump)) continue;
+    if (!one.end.empty()) {
+      report
+          .at(one.range,
+              "{} ends the program before this, and nothing jumps here: it never runs this block, {}; take "
+              "{} out, or the blocks after it",
+              one.end, one.extent, one.end)
+          .note(one.jump, "the end");
+      continue;
+    }
     report
         .at(one.range,
             "no path leads here: the program never runs this block, {}; take the jump before it out, or the "

@@ -94,6 +94,18 @@ void offsetUnderRotation(const CheckedProgram& input, Report& report) {
   }
 }
 
+// G43 with Z while the plane is not that of X and Y.
+void lengthOutsideOfPlane(const CheckedProgram& input, Report& report) {
+  eachBlock(input, [&](const Words& words, const Modes&, const Modes& now) {
+    const nc::Word* code = findAny(words, {43, 44});
+    if (code == nullptr || now.plane < 18 || !hasAny(words, "Z") || hasAny(words, "XY")) return;
+    report.at(code->range,
+              "`{}` while G{} is in force: a parameter says whether the tool length goes along Z or across "
+              "the plane, along {}; without it Z goes deeper by the length; write G17 before it",
+              wordText(*code), now.plane, lettersOf(now.plane).depth);
+  });
+}
+
 } // namespace
 
 void feedMissing(const CheckedProgram& input, Report& report) {
@@ -213,6 +225,7 @@ void modeForbidsCode(const CheckedProgram& input, Report& report) {
       if (code != nullptr) return tell(*code, "G68 turns the coordinates", "write G69 before it");
     }
   });
+  lengthOutsideOfPlane(input, report);
   offsetUnderRotation(input, report);
 }
 

@@ -166,9 +166,9 @@ void turn(const Words& words, const Modes& before, Modes& modes) {
 }
 
 Modes after(const Block& block, const Modes& before, const stdlib::Control* control) {
-  if (std::holds_alternative<Unread>(block.body) || block.repaired) return unknown(before);
+  if (std::holds_alternative<Unread>(block.body)) return unknown(before);
   const auto* words = std::get_if<Words>(&block.body);
-  if (words == nullptr) return before;
+  if (words == nullptr) return block.repaired ? unknown(before) : before;
   if (const auto call = callOf(*words); call && call->kind != CallKind::Return) {
     Modes out = unknown(before);
     if (call->kind == CallKind::Simple) { // gives back the modes that it needs otherwise
@@ -190,7 +190,10 @@ Modes after(const Block& block, const Modes& before, const stdlib::Control* cont
     if (hasWord(*words, 'Q')) out.peck = Certain::Yes;
     if (out.plane == 0 || hasWord(*words, lettersOf(out.plane).depth)) out.depth = Certain::Yes;
   }
-  move(*words, out, control);
+  if (block.repaired)
+    out.at.fill(std::nullopt); // its codes are known, its values are not
+  else
+    move(*words, out, control);
   turn(*words, before, out);
   return out;
 }

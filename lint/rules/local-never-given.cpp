@@ -1,9 +1,12 @@
+#include "frontend/macrob/Calls.h"
 #include "ir/Walk.h"
 #include "lint/NcProgram.h"
 #include "lint/OwnCalls.h"
 #include "stdlib/MacroSet.h"
 
+#include <fmt/format.h>
 #include <map>
+#include <optional>
 #include <set>
 
 namespace dotek::lint::rule {
@@ -97,20 +100,45 @@ void checkProgram(const NcProgram& nc, const std::set<std::uint32_t>* calls, Rep
       // A test beside it shows that leaving it out is meant.
       if (asked.contains(number) || (branch == nullptr && tested.contains(number))) continue;
       if (!told.insert(number).second) continue;
+      const char letter = stdlib::letterOfLocal(number);
       report.at(range.hasPlace() ? range : statement.origin.range(),
-                "#{} is read here, no call in the files gives it, and the program does not set it; it is "
-                "empty, and "
-                "counts as 0 or drops the word; write the number that is meant",
-                number);
+                "#{} is read here, no call in the files gives it{}, and the program does not set it; it is "
+                "empty, and counts as 0 or drops the word; write the number that is meant{}",
+                number, letter == 0 ? "" : fmt::format(" (by {})", letter),
+                letter == 0 ? "" : fmt::format(", or `{}` in the call", letter));
     }
   }
 }
 
+// What some call gives, by program: of all files, those with errors too. nullopt: a call cannot be read.
+std::optional<std::map<std::uint32_t, std::set<std::uint32_t>>> givenByProgram(const Project& project) {
+  std::map<std::uint32_t, std::set<std::uint32_t>> out;
+  std::set<std::uint32_t> shared; // by M98, with the locals of their caller
+  for (const NcFile& file : project.programs)
+    for (const macrob::Program& program : file.file->programs)
+      for (const macrob::Block& block : program.blocks) {
+        const auto* unread = std::get_if<macrob::Unread>(&block.body);
+        if (unread != nullptr && unread->text.find("6") != std::string::npos &&
+            unread->text.find('P') != std::string::npos)
+          return std::nullopt;
+        const auto* words = std::get_if<macrob::Words>(&block.body);
+        const auto call = words == nullptr ? std::nullopt : macrob::callOf(*words);
+        const auto number = call ? macrob::calledProgram(*call) : std::nullopt;
+        if (!number) continue;
+        if (call->kind == macrob::CallKind::Subprogram) shared.insert(*number);
+        std::set<std::uint32_t>& given = out[*number];
+        for (const macrob::CallArgument& argument : call->arguments)
+          given.insert(argument.variable);
+      }
+  for (const std::uint32_t number : shared)
+    out.erase(number);
+  return out;
+}
+
 void check(const Project& project, Report& report) {
-  std::map<std::uint32_t, std::set<std::uint32_t>> calls; // what some call gives, by program
-  for (const auto& [program, list] : callsByProgram(project))
-    for (const OwnCall& call : list)
-      calls[program].insert(call.given.begin(), call.given.end());
+  const auto given = givenByProgram(project);
+  if (!given) return;
+  const auto& calls = *given;
   for (const auto& nc : programsOf(project)) {
     if (endsProgram(nc->program) || nc->program.number == 0) continue;
     const auto at = calls.find(static_cast<std::uint32_t>(nc->program.number));

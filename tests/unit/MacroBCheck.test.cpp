@@ -73,6 +73,24 @@ TEST_CASE("macrob check: blocks that never run") {
   CHECK(program("DO1\n#1=#1+1\nIF[#1EQ1]GOTO8\nGOTO9\nEND1\nN8\nN9") == "");
 }
 
+TEST_CASE("macrob check: blocks after the end of the program") {
+  CHECK(program("G0 X1.\nM30") == "W 4:1 block-never-runs"); // the M99
+  CHECK(told("O1\nM30\nG1 X5.\nN9 G0\n") == "W 3:1 block-never-runs");
+  CHECK(told("O1\nM2\n(NOTE)\n") == "");
+  CHECK(told("O1\n/M30\nG0 X5.\nM99\n") == ""); // the operator decides
+  CHECK(told("O1\nIF[#1EQ1]GOTO9\nM30\nN9 #3000=1(STOP)\n") == "");
+  CHECK(told("O1\nIF[#1EQ1]GOTO9\nM99\nG0\nN9 #3000=1(STOP)\n") == "W 4:1 block-never-runs");
+  // A word may name the block: a part of the program that is called, a contour.
+  CHECK(told("O1\nM98 P1000 Q100\nM30\nN100 G0 X5.\nM99\n") == "");
+  CHECK(told("O1\nM97 P100\nM30\nG0\nN100 G0 X5.\nM99\n") == "W 4:1 block-never-runs");
+  CHECK(told("O1\nM30\n%\n") == "");
+  // A loop whose END no pass comes to.
+  CHECK(told("O1\nWHILE[#1LT5]DO1\n#1=#1+1\nM99\nEND1\n") == "W 5:1 block-never-runs");
+  CHECK(told("O1\nWHILE[#1LT5]DO1\nIF[#1LT3]GOTO7\nM99\nN7 #1=#1+1\nEND1\nM99\n") == "");
+  CHECK(told("O1\nWHILE[#1LT5]DO1\n#1=#1+1\nM99\nO2\nEND1\nM99\n") ==
+        "E 2:1 do-without-end; E 6:1 end-without-do");
+}
+
 TEST_CASE("macrob check: numbers of variables (1.3, 1.11)") {
   CHECK(program("#33=#100+#199+#500+#999+#5041") == "");
   CHECK(program("#34=1\n#1=#34") == "E 2:1 variable-out-of-range");
@@ -296,6 +314,46 @@ TEST_CASE("macrob check: feeds, canned cycles and arcs that no value mends") {
   CHECK(main("F9.\nG1 X#1 Y0.\nG2 X4. I2.1") == "");
   CHECK(main("F9.\nG1 X1. Y0.\nG2 X1. Y0 R5.") == "W 5:11 arc-geometry");
   CHECK(main("F9.\nG18 G2 X1. Z5. J2.") == "W 4:16 arc-geometry");
+}
+
+TEST_CASE("macrob check: arcs that another code or an earlier block makes of a move") {
+  CHECK(program("G2 G27 X10. Y5. R20. F9.") == "W 2:4 codes-exclude");
+  CHECK(program("G17 G3 X10. G28 R20. F9.") == "W 2:13 codes-exclude");
+  CHECK(program("G2 G17 X10. Y5. R20. F9.") == "");
+  CHECK(program("G0 G28 Z0.\nG27 X0.") == "");
+  MacroFile plane("O1\nG2 G27 X10. Y5. R20. F9.\nG17 G2 G28 X1. R2.\nM99\n");
+  plane.check();
+  REQUIRE(plane.diagnostics.all().size() == 2);
+  CHECK(plane.diagnostics.all()[0].message.find("write `G17` if the plane is meant") != std::string::npos);
+  CHECK(plane.diagnostics.all()[1].message.find("G18") == std::string::npos);
+  // A straight move after an arc, whose G1 was forgotten: once for each arc.
+  CHECK(program("G3 G19 Y5. Z5. R5. F9.\nX20.\nX30.") == "W 3:1 arc-without-centre");
+  CHECK(program("G3 G19 Y5. Z5. R5. F9.\nX20.\nG3 Y6. Z6. R5.\nX30.") ==
+        "W 3:1 arc-without-centre; W 5:1 arc-without-centre");
+  CHECK(program("G3 G19 Y5. Z5. R5. F9.\nG1 X20.") == "");
+  CHECK(program("G3 G19 Y5. Z5. R5. F9.\nY6. Z6. R5.\nY7. J1. K0.") == "");
+  CHECK(program("G3 G19 Y5. Z5. R5. F9.\nF5.\nM9\nG28 X0") == "");
+  CHECK(program("G3 G19 Y5. Z5. R5. F9.\nM98 P5\nX20.") == "");    // which mode it leaves is not known
+  CHECK(program("IF[#1EQ1]GOTO5\nG3 Y5. R5. F9.\nN5 X20.") == ""); // nor is it here
+  CHECK(program("G2 X5. R5. F9.\nG66 P9\nX20.\nG67") == "");       // calls after moves
+  // Of a block with an error that has one repair the codes are known.
+  CHECK(told("O1\nGO G17 G3 X5. Y5. R5. F9.\nX9.\nM99\n").find("W 3:1 arc-without-centre") !=
+        std::string::npos);
+}
+
+TEST_CASE("macrob check: G91 between axis words, and a tool length in another plane") {
+  CHECK(program("G90 G1 X#24 G91 Z2. F9.") == "W 2:13 codes-exclude");
+  CHECK(program("G90 G1\nX#24 G91 Z2. F9.") == "W 3:6 mode-after-axis");
+  CHECK(program("X#24 G91 Z2. F9.") == "W 2:6 mode-after-axis");
+  CHECK(program("G91\nX#24 G91 Z2. F9.") == "");
+  CHECK(program("G90 G1\nG91 X#24 Z2. F9.") == "");
+  CHECK(program("G90 G1\nX#24 Z2. G91 F9.") == "");
+  CHECK(program("G28 X0 G91 Z0") == "");
+  CHECK(program("G19\nG0 G43 Z50. H1") == "W 3:4 mode-forbids-code");
+  CHECK(program("G0 G18 G44 Z50. H1") == "W 2:8 mode-forbids-code");
+  CHECK(program("G19\nG0 G17 G43 Z50. H1") == "");
+  CHECK(program("G19\nG0 G43 X50. H1") == ""); // along the axis of the plane
+  CHECK(program("G0 G43 Z50. H1") == "");
 }
 
 TEST_CASE("macrob check: data, dwells, signals and sums that no value mends") {
