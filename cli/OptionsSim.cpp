@@ -156,15 +156,15 @@ namespace {
 
 // Two numbers are those of a lathe, three those of a mill.
 sim::Setup::Zero datumOf(const std::string& text) {
-  if (text == "part") return {driver::kDatum, true, {}};
+  if (text == "part") return {stdlib::kDatum, true, {}};
   const auto commas = std::count(text.begin(), text.end(), ',');
   const std::size_t comma = text.find(',');
   if (commas != 1 && commas != 2)
     throw UsageError("--datum takes X,Z of a lathe, X,Y,Z of a mill or `part`, not `" + text + "`");
-  if (commas == 2) return {driver::kDatum, false, pointOf("--datum", text)};
+  if (commas == 2) return {stdlib::kDatum, false, pointOf("--datum", text)};
   std::array<double, 3> out = pointOf("--datum", text.substr(0, comma) + ",0" + text.substr(comma));
-  out[1] = driver::kNoCoordinate;
-  return {driver::kDatum, false, out};
+  out[1] = stdlib::kNoCoordinate;
+  return {stdlib::kDatum, false, out};
 }
 
 } // namespace

@@ -86,7 +86,7 @@ public:
                                                                 : simCycle(options_, session_);
     else if (kind == InputKind::Suf)
       return runSuf();
-    if (stdlib::Setup setup = options_.setup; takeDatum(setup)) {
+    if (stdlib::datumOf(options_.setup)) {
       diagnostics().report<diag::SetupFlag>({}, "--datum",
                                             "it is for programs of Mikroprog; `--work-offset G54=X,Y,Z` sets "
                                             "a work system");
@@ -308,13 +308,16 @@ private:
 
   void noSetup(const std::string& what) {
     diagnostics().report<diag::OptionOfMacroB>({}, what).note(
-        {}, "`--datum` says where the zero of its active system is, `--at` where the run begins in it, and "
-            "`length = 0` of [probe] counts positions at the tip");
+        {},
+        "`--datum`, or `datum` of [setup], says where the zero of its active system is, `--at` or `at` where "
+        "the run begins in it, and `length = 0` of [probe] counts positions at the tip");
   }
 
-  // What of a setup a program of Mikroprog knows: where the run begins. "": no more than that is set.
+  // What of a setup a program of Mikroprog does not know: all but its datum and where the run begins. "":
+  // none.
   static std::string_view setupOfMacroB(sim::Setup setup) {
     setup.at.reset();
+    std::erase_if(setup.zeros, [](const sim::Setup::Zero& one) { return one.system == stdlib::kDatum; });
     return setup.firstFlag();
   }
 
@@ -323,26 +326,25 @@ private:
     if (!options_.shown.empty()) diagnostics().report<diag::OptionOfMacroB>({}, "--show");
     if (!options_.programs.empty()) diagnostics().report<diag::OptionOfMacroB>({}, "--programs");
     if (options_.probeMacros) diagnostics().report<diag::OptionOfMacroB>({}, "--probe-macros");
-    if (options_.common.job) diagnostics().report<diag::OptionOfMacroB>({}, "--job");
     if (device_.device) diagnostics().report<diag::OptionOfMacroB>({}, "--device");
     if (device_.report) diagnostics().report<diag::OptionOfMacroB>({}, "--report");
     if (!options_.common.set.empty()) diagnostics().report<diag::OptionOfCycles>({}, "--set");
     if (!options_.common.host.empty()) diagnostics().report<diag::OptionOfCycles>({}, "--host");
-    sufOptions_ = options_;
-    const auto datum = takeDatum(sufOptions_->setup);
-    if (const std::string_view flag = setupOfMacroB(sufOptions_->setup); !flag.empty())
+    if (const std::string_view flag = setupOfMacroB(options_.setup); !flag.empty())
       noSetup(std::string(flag));
     if (options_.activeSystem != 0) noSetup("--active-system");
     if (diagnostics().hasErrors()) return outcomeOf(session_, "");
     const std::optional<SufProgram> suf = loadSuf(options_.program, options_.control, session_);
-    if (suf) world_ = sim::SimWorld::load(*sufOptions_, session_);
+    if (suf) world_ = sim::SimWorld::load(options_, session_);
     if (world_ && !setupOfMacroB(world_->setup()).empty())
-      noSetup("[setup] of " + options_.machine.value_or(""));
+      noSetup("[setup] of " + options_.common.job.value_or(options_.machine.value_or("")));
     if (!world_ || diagnostics().hasErrors()) return outcomeOf(session_, "");
+    const auto datum = stdlib::datumOf(world_->setup());
+    const std::string_view datumBy = stdlib::datumOf(options_.setup) ? "--datum" : "datum` of `[setup]";
     const sim::mikroprog::Profile profile(suf->control);
     sim::Machine machine(profile.machine, profile.dialect);
     if (!setParameters(options_.variables, profile, machine, diagnostics()) ||
-        (datum && !placeDatum(*datum, suf->control, world_->partZero(), machine, diagnostics())) ||
+        (datum && !placeDatum(*datum, datumBy, suf->control, world_->partZero(), machine, diagnostics())) ||
         !world_->prepare(machine) || !world_->startsWithinTravel(machine))
       return outcomeOf(session_, "");
     const auto others = loadOthers(options_.program, suf->program, suf->control, session_);
@@ -487,7 +489,6 @@ private:
   }
 
   const SimOptions& options_;
-  std::optional<SimOptions> sufOptions_; // of a program of Mikroprog: without its datum
   const sim::DeviceOptions& device_;
   Session& session_;
   WatchedRun* watched_; // nullptr: nobody listens

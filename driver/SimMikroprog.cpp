@@ -30,25 +30,16 @@ bool setParameters(const project::NamedTexts& given, const sim::mikroprog::Profi
   return all;
 }
 
-std::optional<stdlib::Setup::Zero> takeDatum(stdlib::Setup& setup) {
-  const auto at = std::find_if(setup.zeros.begin(), setup.zeros.end(),
-                               [](const stdlib::Setup::Zero& one) { return one.system == kDatum; });
-  if (at == setup.zeros.end()) return std::nullopt;
-  const stdlib::Setup::Zero out = *at;
-  setup.zeros.erase(at);
-  return out;
-}
-
-bool placeDatum(const stdlib::Setup::Zero& datum, const stdlib::MikroprogControl& control,
-                const std::optional<std::array<double, 3>>& part, sim::Machine& machine,
-                Diagnostics& diagnostics) {
+bool placeDatum(const stdlib::Setup::Zero& datum, std::string_view saidBy,
+                const stdlib::MikroprogControl& control, const std::optional<std::array<double, 3>>& part,
+                sim::Machine& machine, Diagnostics& diagnostics) {
   const auto wrong = [&](const std::string& why) {
-    diagnostics.report<diag::SetupFlag>({}, "--datum", why);
+    diagnostics.report<diag::SetupFlag>({}, saidBy, why);
     return false;
   };
   if (datum.ofPart && !part)
     return wrong("it is to be where the part is, and there is none; `--part PART.toml` names it");
-  const bool hasY = datum.place[1] != kNoCoordinate;
+  const bool hasY = datum.place[1] != stdlib::kNoCoordinate;
   if (!datum.ofPart && hasY != control.hasAxis('Y'))
     return wrong(fmt::format("`{}` takes {} numbers in mm of the machine, one for each of {}, or `part`",
                              control.name, control.axes.size(), control.axes));

@@ -4,31 +4,25 @@
 #include "project/Options.h"
 #include "project/Session.h"
 #include "sim/mikroprog/Dialect.h"
-#include "stdlib/Setup.h"
+#include "stdlib/SetupDatum.h"
 #include "support/Diagnostics.h"
 
 #include <array>
 #include <cstdint>
 #include <deque>
-#include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace dotek::driver {
 
 // --var P5=3, O1=1, G52.Z=-12.
 bool setParameters(const project::NamedTexts& given, const sim::mikroprog::Profile& profile,
                    sim::Machine& machine, Diagnostics& diagnostics);
-// --datum is a zero of a setup with this number instead of that of a work system; Y that was not given is no
-// number.
-inline constexpr std::uint32_t kDatum = 99;
-inline constexpr double kNoCoordinate = std::numeric_limits<double>::infinity();
-// It is taken out of the setup. nullopt: there is none.
-std::optional<stdlib::Setup::Zero> takeDatum(stdlib::Setup& setup);
-// `part`: where the part is meant to be.
-bool placeDatum(const stdlib::Setup::Zero& datum, const stdlib::MikroprogControl& control,
-                const std::optional<std::array<double, 3>>& part, sim::Machine& machine,
-                Diagnostics& diagnostics);
+// `saidBy`: "--datum". `part`: where the part is meant to be.
+bool placeDatum(const stdlib::Setup::Zero& datum, std::string_view saidBy,
+                const stdlib::MikroprogControl& control, const std::optional<std::array<double, 3>>& part,
+                sim::Machine& machine, Diagnostics& diagnostics);
 
 // The programs in the folder of `path` that the program runs by G28, and those that they run, by the names of
 // their files; the program itself is among them where one of them runs it. One that is not there is left out.

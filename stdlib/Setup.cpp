@@ -1,5 +1,7 @@
 #include "stdlib/Setup.h"
 
+#include "stdlib/SetupDatum.h"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -27,6 +29,26 @@ std::optional<double> lengthOf(const TomlDocument& document, const TomlValue& va
   if (!(std::abs(out) <= kFarthest))
     document.fail(value.range(), fmt::format("{} mm is no length of a tool", out));
   return out;
+}
+
+// [X, Z] of a lathe, [X, Y, Z] of a mill, or "part".
+std::optional<Setup::Zero> readDatum(const TomlDocument& document, const TomlValue& value) {
+  if (!value) return std::nullopt;
+  if (value.isText()) {
+    value.choice({"part"});
+    return Setup::Zero{kDatum, true, {}};
+  }
+  const std::vector<double> numbers = value.numbers();
+  const bool lathe = numbers.size() == 2;
+  if ((lathe || numbers.size() == 3) &&
+      std::all_of(numbers.begin(), numbers.end(), [](double n) { return std::abs(n) <= kFarthest; }))
+    return Setup::Zero{
+        kDatum, false, {numbers[0], lathe ? kNoCoordinate : numbers[1], lathe ? numbers[1] : numbers[2]}};
+  document.fail(value.range(),
+                fmt::format("[X, Z] of a lathe, [X, Y, Z] of a mill or \"part\" is expected, in mm, each "
+                            "within {}",
+                            kFarthest));
+  return std::nullopt;
 }
 
 } // namespace
@@ -90,6 +112,7 @@ Setup readSetup(const TomlDocument& document, const TomlTable& table) {
       out.zeros.push_back({*system, false, *place});
     }
   }
+  if (const auto datum = readDatum(document, table.value("datum"))) out.zeros.push_back(*datum);
   out.at = point(document, table.value("at"));
   out.call = table.value("call").text();
   return out;

@@ -2,6 +2,7 @@
 
 #include "sim/machine/Trace.h"
 #include "stdlib/MacroSet.h"
+#include "stdlib/SetupDatum.h"
 #include "support/Ascii.h"
 #include "support/Decimal.h"
 #include "support/messages/Commands.h"
@@ -36,6 +37,12 @@ bool prepare(const Setup& setup, const std::optional<std::array<double, 3>>& par
     machine.putTool(*setup.tool);
   }
   for (const Setup::Zero& zero : setup.zeros) {
+    if (zero.system == stdlib::kDatum) {
+      if (machine.dialect().firstParameter) continue; // its program places it
+      return refuse(
+          "datum` of `[setup]",
+          "it is for programs of Mikroprog; `work_offset = { G54 = [X, Y, Z] }` sets a work system");
+    }
     if (zero.ofPart && !part)
       return refuse(
           "--work-offset",

@@ -1,6 +1,7 @@
 // What a run was given beside its program, as the pictures list it.
 #include "sim/run/SimReport.h"
 #include "sim/run/SimWorld.h"
+#include "stdlib/SetupDatum.h"
 #include "support/Decimal.h"
 #include "support/messages/Part.h"
 
@@ -45,9 +46,11 @@ void SimWorld::addInputs() {
   if (setup_.tool)
     add("tool", setup_.length ? fmt::format("{}, length {} mm", *setup_.tool, numberText(*setup_.length))
                               : fmt::format("{}", *setup_.tool));
-  for (const Setup::Zero& zero : setup_.zeros)
-    add(fmt::format("G{}", 54 + zero.system),
+  for (Setup::Zero zero : setup_.zeros) {
+    if (zero.place[1] == stdlib::kNoCoordinate) zero.place[1] = 0; // of a lathe
+    add(zero.system == stdlib::kDatum ? "datum" : fmt::format("G{}", 54 + zero.system),
         zero.ofPart ? "where the part is meant to be" : place(zero.place));
+  }
   if (options_.activeSystem != 0) add("active", fmt::format("G{}", 54 + options_.activeSystem));
   if (setup_.at) add("begins at", place(*setup_.at));
   for (const auto& [number, value] : options_.variables)
@@ -63,7 +66,7 @@ void SimWorld::tellZeroLeftOut(const Machine& machine) {
   for (const Setup::Zero& zero : machine_->setup.zeros) {
     const bool said = std::any_of(setup_.zeros.begin(), setup_.zeros.end(),
                                   [&](const Setup::Zero& one) { return one.system == zero.system; });
-    if (zero.ofPart && !said && machine.zeroOf(zero.system) == Position{})
+    if (zero.ofPart && !said && zero.system < 6 && machine.zeroOf(zero.system) == Position{})
       names += fmt::format("{}G{}", names.empty() ? "" : ", ", 54 + zero.system);
   }
   if (!names.empty())

@@ -6,6 +6,7 @@
 #include "sim/picture/PictureReport.h"
 #include "sim/run/SetupRun.h"
 #include "sim/run/SimReport.h"
+#include "stdlib/SetupDatum.h"
 #include "stdlib/Toml.h"
 #include "support/Decimal.h"
 #include "support/Printable.h"
@@ -130,7 +131,7 @@ bool SimWorld::loadFiles(const Setup& given) {
   // A machine's file serves runs without a part, too.
   if (!part)
     std::erase_if(setup_.zeros, [&](const Setup::Zero& zero) {
-      if (zero.ofPart) zeroLeftOut_ = static_cast<std::uint8_t>(zero.system);
+      if (zero.ofPart && zero.system != stdlib::kDatum) zeroLeftOut_ = static_cast<std::uint8_t>(zero.system);
       return zero.ofPart;
     });
   setup_.override(given);
