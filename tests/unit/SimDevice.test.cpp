@@ -72,7 +72,7 @@ TEST_CASE("device: the commands of the ram's page do what it says, and its numbe
   fs::copy(root() / "examples/ram-compensation", scratch / "examples/ram-compensation",
            fs::copy_options::recursive);
   const auto commands = commandsOf(readAll(root() / "examples/ram-compensation/README.md"));
-  REQUIRE(commands.size() == 3);
+  REQUIRE(commands.size() == 4);
   const CommandResult lint = runIn(scratch, commands[0].second);
   CHECK(lint.out == "");
   CHECK(lint.status == 0);
@@ -100,6 +100,17 @@ TEST_CASE("device: the commands of the ram's page do what it says, and its numbe
   const CommandResult sign = runIn(scratch, commands[2].second);
   CHECK(sign.status == 1);
   CHECK(has(sign, "NO READING BELOW THE WANTED"));
+
+  // Both rules at each extension: they differ where the readings are negative, and there at each of them.
+  const CommandResult both = runIn(scratch, commands[3].second);
+  CAPTURE(both.err);
+  REQUIRE(both.status == 0);
+  CHECK(both.err.find("warning:") == std::string::npos);
+  const std::string rules = readAll(scratch / "sign.md");
+  CHECK(rules.find("| -50 | 0.497 | 3 | 3 |") != std::string::npos);
+  CHECK(rules.find("| -700 | 0.343 | 8 | 8 |") != std::string::npos);
+  CHECK(rules.find("| -50 | -0.503 | 1 | 3 |") != std::string::npos);
+  CHECK(rules.find("| -700 | -0.657 | 1 | 8 |") != std::string::npos);
 
   // Without the dwell that lets the voltage settle the page says that its numbers come from a faulty run.
   const std::string reading = "examples/ram-compensation/macros/O9070.nc";
