@@ -40,6 +40,34 @@ public:
     }
     return out < kFirstAxis || (out & (kRapid | kF)) == (kRapid | kF) ? 0 : out;
   }
+  // P1=500: moves nothing, and changes nothing that a plain move depends on.
+  bool isAssignment() {
+    if (!sequence() || !take('P') || digits() == 0) return false;
+    blanks();
+    if (!take('=')) return false;
+    blanks();
+    take('-');
+    if (digits() == 0 || (take('.') && digits() == 0)) return false;
+    blanks();
+    return at_ == text_.size();
+  }
+  // G1, G2 or G3 with axes, a radius or centre and a feed, FP1 too: only a move.
+  bool isCut(std::string_view axes) {
+    if (!sequence() || !take('G') || !(take('1') || take('2') || take('3')) || !ends()) return false;
+    for (blanks(); at_ < text_.size(); blanks()) {
+      const char letter = text_[at_++];
+      if (axes.find(letter) == std::string_view::npos &&
+          std::string_view("RIJKF").find(letter) == std::string_view::npos)
+        return false;
+      if (letter == 'F' && take('P')) {
+        if (digits() == 0 || !ends()) return false;
+        continue;
+      }
+      take('-');
+      if (digits() == 0 || (take('.') && digits() == 0) || !ends()) return false;
+    }
+    return true;
+  }
   bool hasNumber() const { return hasNumber_; }
   std::uint64_t number() const { return number_; }
 
@@ -47,6 +75,14 @@ private:
   std::uint8_t broken() {
     hasNumber_ = false;
     return 0;
+  }
+  // Past an N, which is none of its own.
+  bool sequence() {
+    at_ = 0;
+    blanks();
+    if (take('N') && digits() == 0) return false;
+    blanks();
+    return true;
   }
   void blanks() {
     while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t'))
@@ -107,6 +143,9 @@ void addTargets(std::string_view line, std::unordered_set<std::uint64_t>& out) {
 
 std::vector<bool> leftOut(const std::vector<std::string_view>& lines, std::string_view axes) {
   std::vector<std::uint8_t> forms(lines.size());
+  std::vector<bool> cuts(lines.size());
+  std::vector<std::size_t> moves; // lines that are no assignments
+  moves.reserve(lines.size());
   std::unordered_set<std::uint64_t> targets;
   std::vector<std::uint32_t> numbers(lines.size()); // of plain moves; 0: none
   std::uint64_t last = 0;
@@ -114,7 +153,10 @@ std::vector<bool> leftOut(const std::vector<std::string_view>& lines, std::strin
   for (std::size_t i = 0; i < lines.size(); ++i) {
     Reader reader(lines[i]);
     forms[i] = reader.form(axes, perRevolution);
-    if (forms[i] == 0) {
+    const bool assigns = forms[i] == 0 && reader.isAssignment();
+    if (!assigns) moves.push_back(i);
+    if (forms[i] == 0 && !assigns) {
+      cuts[i] = reader.isCut(axes);
       addTargets(lines[i], targets);
       perRevolution = perRevolution || lines[i].find("95") != std::string_view::npos; // G95, G095
     }
@@ -125,11 +167,18 @@ std::vector<bool> leftOut(const std::vector<std::string_view>& lines, std::strin
     numbers[i] = static_cast<std::uint32_t>(last);
   }
   std::vector<bool> out(lines.size());
-  for (std::size_t i = 1; i + 1 < lines.size(); ++i) {
-    if (forms[i] == 0 || forms[i - 1] != forms[i] || forms[i + 1] != forms[i]) continue;
+  for (std::size_t at = 1; at + 1 < moves.size(); ++at) {
+    const std::size_t i = moves[at], before = moves[at - 1], after = moves[at + 1];
+    const auto isLike = [&](std::size_t other) { return (forms[other] | kF) == (forms[i] | kF); };
+    if (forms[i] == 0 || !isLike(after)) continue;
+    // After an arc or a feed by a parameter the next line says all that the first one says.
+    if (!isLike(before) && !(cuts[before] && (forms[i] & kFeed) != 0)) continue;
+    // An F counts for the lines after it.
+    if ((forms[i] & kF) != 0 && (forms[before] & forms[after] & kF) == 0) continue;
     // Before a G31 the last move counts, and so does where it begins.
+    const std::size_t second = at + 2 < moves.size() ? moves[at + 2] : lines.size();
     const bool probed =
-        i + 2 < lines.size() && forms[i + 2] == 0 && lines[i + 2].find("31") != std::string_view::npos;
+        second < lines.size() && forms[second] == 0 && lines[second].find("31") != std::string_view::npos;
     out[i] = !probed && (numbers[i] == 0 || !targets.contains(numbers[i]));
   }
   return out;

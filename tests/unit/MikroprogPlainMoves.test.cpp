@@ -96,8 +96,8 @@ private:
     case 0: return block("G1 Z-1 F100");
     case 1: return block("G2 X" + length() + " Z" + length() + " R5");
     case 2: return block("G3 X10 Z2 R0.5");
-    case 3: return block("G1 X3 FP1");
-    case 4: return block(chance(2) ? "M5" : "P1=5 ;FEED");
+    case 3: return block(chance(2) ? "G1 X3 FP1" : "G1 X2 Z4 F80");
+    case 4: return block(chance(2) ? "M5" : chance(2) ? "P1=5 ;FEED" : "P1=0.5");
     case 5: return block("M4 S500");
     case 6: return block("G24");
     case 7: return block("G90");
@@ -130,31 +130,43 @@ private:
 
 TEST_CASE("mikroprog plain moves: some of a long run of them are kept") {
   const std::string head = "N1 G18 G90\nN2 M3 S500\nN3 G1 X1 Z1 F100\n";
-  CHECK(kept(head + moves(100, 10) + "N2000 M30\n") == 3 + 2 + 1);
+  CHECK(kept(head + moves(100, 10) + "N2000 M30\n") == 3 + 1 + 1);
   CHECK(kept(head + moves(100, 10) + "N2000 M30\n", "") == 3 + 100 + 1);
   CHECK(kept(head + moves(100, 10, "") + "N2000 M30\n") == 3 + 2 + 1);
-  CHECK(kept(head + moves(2, 10) + "N2000 M30\n") == 3 + 2 + 1);
+  CHECK(kept(head + moves(2, 10) + "N2000 M30\n") == 3 + 1 + 1);
   // A feed in each, as in the last block of the head; before a G31 one more.
   CHECK(kept(head + moves(100, 10, "G1 F100 ") + "N2000 M30\n") == 3 + 1 + 1);
-  CHECK(kept(head + moves(100, 10) + "N2000 G31 X5\n") == 3 + 3 + 1);
+  CHECK(kept(head + moves(100, 10) + "N2000 G31 X5\n") == 3 + 2 + 1);
+  // A feed, a parameter, an arc between them: the line before an arc says where it begins.
+  const std::string rest = moves(50, 1000) + "N2000 M30\n";
+  CHECK(kept(head + moves(50, 10) + "N900 G1 X1 Z1 F90\n" + rest) == 3 + 1 + 1 + 1);
+  CHECK(kept(head + moves(50, 10) + "N900 P1=-0.5\n" + rest) == 3 + 1 + 1 + 1);
+  CHECK(kept(head + moves(50, 10) + "N900 G2 X1 Z1 R5\n" + rest) == 3 + 1 + 1 + 1 + 1);
+  CHECK(kept(head + moves(50, 10) + "N900 G1 X3 FP1\n" + rest) == 3 + 1 + 1 + 1 + 1);
+  for (const char* other : {"P1=P2", "M8", "G2 X1 Z1 L5", "G1 XP1", ";A", "G2 X1 ;A"})
+    CHECK_MESSAGE(kept(head + moves(50, 10) + "N900 " + other + "\n" + rest) == 3 + 1 + 1 + 2 + 1, other);
   // Another code or other letters.
-  CHECK(kept(head + moves(50, 10) + moves(50, 1000, "G0 ") + "N2000 M30\n") == 3 + 4 + 1);
+  CHECK(kept(head + moves(50, 10) + moves(50, 1000, "G0 ") + "N2000 M30\n") == 3 + 3 + 1);
   // A letter that the control does not have.
   CHECK(kept(head + moves(100, 10) + "N2000 M30\n", "XY") == 3 + 100 + 1);
 }
 
 TEST_CASE("mikroprog plain moves: nothing is left out that a jump or a sum may need") {
   const std::string head = "N1 G18 G90\nN3 G1 X1 Z1 F100\n";
-  CHECK(kept(head + moves(100, 10) + "N2000 G27 L500\n") == 2 + 3 + 1);
+  CHECK(kept(head + moves(100, 10) + "N2000 G27 L500\n") == 2 + 2 + 1);
   CHECK(kept(head + "N5 G91\n" + moves(100, 10) + "N2000 M30\n") == 3 + 100 + 1);
   CHECK(kept(head + "N5 G24\n" + moves(100, 10) + "N2000 M30\n") == 3 + 100 + 1);
   // Numbers that do not rise.
   CHECK(kept(head + moves(100, 10) + "N500 M30\n") == 2 + 100 + 1);
   CHECK(kept(head + moves(50, 10) + moves(50, 400) + "N2000 M30\n") == 2 + 100 + 1);
-  for (const char* odd :
-       {"X1.2345", "X123456", "X1 X2", "X+1", "G2 X1", "X1 F0.5", "X1 FP1", "X1;A", "X1.", "X", "XP1"})
-    CHECK_MESSAGE(
-        kept(head + moves(2, 10) + "N40 G1 " + odd + "\n" + moves(2, 50) + "N90 M30\n") == 2 + 5 + 1, odd);
+  const auto around = [&](const std::string& odd) {
+    return kept(head + moves(2, 10) + "N40 G1 " + odd + "\n" + moves(2, 50) + "N90 M30\n");
+  };
+  for (const char* odd : {"X+1", "G2 X1", "X1;A", "X1.", "X", "XP1"})
+    CHECK_MESSAGE(around(odd) == 2 + 4 + 1, odd);
+  // A move, whatever is wrong with it: the line after it says all again.
+  for (const char* odd : {"X1.2345", "X123456", "X1 X2", "X1 F0.5", "X1 FP1"})
+    CHECK_MESSAGE(around(odd) == 2 + 3 + 1, odd);
 }
 
 TEST_CASE("mikroprog plain moves: rules find the same on random programs of a CAM") {
