@@ -1,4 +1,5 @@
 // The body: statements one by one, jumps as if and else.
+#include "backends/cycle/Jumps.h"
 #include "backends/cycle/State.h"
 #include "ir/Match.h"
 #include "ir/Positions.h"
@@ -46,10 +47,14 @@ private:
                                "put what follows into `if .. end`");
             i = end;
           },
-          [&](const ir::OneOf<ir::Label, ir::Store, ir::Move, ir::Measure, ir::CallCycle, ir::ProbePower,
-                              ir::Comment, ir::Assign, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell,
-                              ir::Stop, ir::Alarm, ir::OpaqueBlock, ir::Port, ir::Print> auto&) {
-            one(statement, i++);
+          [&](const ir::Label& node) { i = loops_.contains(node.label) ? loop(i, end) : i + 1; },
+          [&](const ir::OneOf<ir::Store, ir::Move, ir::Measure, ir::CallCycle, ir::ProbePower, ir::Comment,
+                              ir::Assign, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop,
+                              ir::Alarm, ir::OpaqueBlock, ir::Port, ir::Print> auto&) {
+            if (dropped_.contains(i))
+              ++i;
+            else
+              one(statement, i++);
           });
     }
   }
@@ -75,8 +80,7 @@ private:
   std::size_t choice(const ir::Branch& branch, const ir::Origin& origin, std::size_t at, std::size_t end) {
     const std::size_t to = places_.at(branch.target);
     if (to <= at) {
-      s_.refuse(origin.range(), "a loop",
-                "write `while .. at most N times`, with the most runs that make sense");
+      refuseLoop(origin.range());
       return end;
     }
     if (to > end) {
@@ -94,20 +98,92 @@ private:
     }
     const std::string condition = conditionText(s_, ir::negate(branch.condition), origin.range());
     if (condition.empty()) return end;
+    const std::size_t head = s_.lines.size();
     s_.add("if " + condition + " then", origin);
     const auto measured = s_.measured;
+    const auto places = s_.at;
     block(at + 1, thenEnd);
+    const std::size_t middle = s_.lines.size();
     if (after != to) {
       s_.add("else", origin);
       s_.measured = measured;
       s_.at = {};
       block(to, after);
+      if (s_.lines.size() == middle + 1) {
+        s_.lines.pop_back();
+      } else if (middle == head + 1) { // there is an `else` alone
+        s_.lines.erase(s_.lines.begin() + static_cast<std::ptrdiff_t>(middle));
+        s_.lines[head].text = "if " + conditionText(s_, branch.condition, origin.range()) + " then";
+      }
     }
-    s_.add("end", origin);
-    s_.measured.clear(); // what was measured last depends on the way here
+    const bool nothing = s_.lines.size() == head + 1;
+    const bool ends = after == to && thenEnd > at + 1 && endsAt(thenEnd - 1);
+    if (nothing)
+      s_.lines.pop_back();
+    else
+      s_.add("end", origin);
+    if (nothing || ends) { // one way goes on
+      s_.measured = measured;
+      s_.at = places;
+      return after;
+    }
+    leaveWay();
+    return after;
+  }
+
+  bool endsAt(std::size_t at) const { return std::holds_alternative<ir::Alarm>(list_[at].node); }
+
+  void refuseLoop(SourceRange range) {
+    s_.refuse(range, "a loop", "write `while .. at most N times`, with the most runs that make sense");
+  }
+
+  // The loop that begins at the label; where the list goes on.
+  std::size_t loop(std::size_t label, std::size_t end) {
+    const std::optional<Loop> found = loopAt(s_, label);
+    const ir::CycleStatement& first = list_[label + 1 < list_.size() ? label + 1 : label];
+    const SourceRange range = first.origin.range();
+    if (!found || found->after > end || (found->most.empty() && !found->mostOf)) {
+      refuseLoop(range);
+      return end;
+    }
+    if (found->onlyCounts) {
+      s_.add("repeat " + found->most + " times", first.origin);
+    } else {
+      const std::string condition =
+          conditionText(s_, ir::negate(std::get<ir::Branch>(list_[found->branch].node).condition), range);
+      if (condition.empty()) return end;
+      std::string most = found->most;
+      if (found->mostOf) {
+        most = s_.names[*found->mostOf];
+        if (found->mostPlus != 0)
+          most +=
+              fmt::format(" {} {}", found->mostPlus < 0 ? "-" : "+", numberText(std::abs(found->mostPlus)));
+      }
+      s_.add(fmt::format("while {} at most {} times", condition, most), first.origin);
+    }
+    leaveWay();
+    block(found->branch + 1, found->back);
+    s_.add("end", list_[found->back].origin);
+    leaveWay();
+    return found->after;
+  }
+
+  std::set<std::size_t> counters() const {
+    std::set<std::size_t> out;
+    for (std::size_t i = 0; i < list_.size(); ++i) {
+      const auto* label = std::get_if<ir::Label>(&list_[i].node);
+      if (label == nullptr || !loops_.contains(label->label)) continue;
+      if (const std::optional<Loop> found = loopAt(s_, i))
+        out.insert(found->dropped.begin(), found->dropped.end());
+    }
+    return out;
+  }
+
+  // Where the probe is, and what was measured last, depends on the way here.
+  void leaveWay() {
+    s_.measured.clear();
     s_.joined = true;
     s_.at = {};
-    return after;
   }
 
   void one(const ir::CycleStatement& statement, std::size_t index) {
@@ -131,7 +207,7 @@ private:
           const std::string value = valueText(s_, node.value, s_.cycle.variable(node.variable).kind, range);
           if (!value.empty()) s_.add(s_.names[node.variable] + " = " + value, origin);
         },
-        [&](const ir::Store& node) { store(node, origin); },
+        [&](const ir::Store& node) { writeResult(s_, node, origin); },
         [&](const ir::Spindle& node) {
           if (node.state != ir::Spindle::State::Off)
             return s_.refuse(range, "a spindle that is started",
@@ -290,42 +366,12 @@ private:
             "every line of a cycle says itself how it moves and from where it counts");
   }
 
-  // A variable that the source leaves is a result of the cycle.
-  void store(const ir::Store& node, const ir::Origin& origin) {
-    const SourceRange range = origin.range();
-    const double* number = ir::constantValue(node.number);
-    if (number == nullptr)
-      return s_.refuse(range, "a variable whose number is computed", "leave each value under its own name");
-    const auto variable = static_cast<std::uint32_t>(*number);
-    const ir::Kind kind = kindOf(s_, node.value);
-    const std::string value = valueText(s_, node.value, kind, range);
-    if (value.empty()) return;
-    auto known = s_.kept.find(variable);
-    if (known == s_.kept.end()) {
-      std::string base = "value";
-      std::string title = "Value";
-      if (const auto* result = std::get_if<ir::MeasuredResult>(&node.value->node)) {
-        const bool main = result->name == ir::ResultName::Main;
-        base = main ? "measured" : std::string(ir::resultText(result->name));
-        std::replace(base.begin(), base.end(), '-', '_');
-        if (s_.options.isReserved(base)) base = "position_" + base;
-        title = main ? "Measured value" : "Measured: " + std::string(ir::resultTitle(result->name));
-        if (main)
-          s_.note(range, "what the macros leave as their result, which their set does not name",
-                  "it is read as the position of a surface, and as the size of a feature");
-      }
-      const std::string name = s_.fresh(base);
-      known = s_.kept.emplace(variable, name).first;
-      s_.results.emplace_back(name, kind == ir::Kind::Number ? ir::Kind::Length : kind);
-      s_.resultTitles[name] = fmt::format("{}, #{} of the source", title, variable);
-    }
-    s_.add(known->second + " = " + value, origin);
-  }
-
   State& s_;
   const std::vector<ir::CycleStatement>& list_;
   std::unordered_map<ir::LabelId, std::size_t> places_;
-  bool on_ = false; // the probe
+  const std::set<ir::LabelId> loops_ = loopLabels(list_);
+  std::set<std::size_t> dropped_ = counters(); // statements of counters that `repeat` takes the place of
+  bool on_ = false;                            // the probe
   const bool switches_ = std::any_of(list_.begin(), list_.end(), [](const ir::CycleStatement& one) {
     const auto* power = std::get_if<ir::ProbePower>(&one.node);
     return power != nullptr && power->on;

@@ -1,5 +1,6 @@
 // #150=.. and the reads of it: each value that is kept there gets a name of its own.
 #include "backends/cycle/Idioms.h"
+#include "backends/cycle/Jumps.h"
 #include "ir/Match.h"
 #include "ir/Rewrite.h"
 #include "ir/Walk.h"
@@ -33,7 +34,7 @@ public:
   explicit CommonVariables(State& state) : state_(state), list_(state.cycle.body) {}
 
   void run() {
-    if (!follow()) return; // a loop: refused where it is written
+    follow();
     choose();
     if (names_.empty()) return;
     rewriteAll();
@@ -57,19 +58,22 @@ private:
     }
   }
 
-  // Which values each read may see. false: a jump leads back.
-  bool follow() {
-    std::map<ir::LabelId, std::size_t> places;
-    for (std::size_t i = 0; i < list_.size(); ++i)
-      if (const auto* label = std::get_if<ir::Label>(&list_[i].node)) places[label->label] = i;
-    std::map<ir::LabelId, Reaching> arriving;
-    std::optional<Reaching> now = Reaching();
+  // Which values each read may see.
+  void follow() {
     parent_.resize(list_.size() + 1);
     std::iota(parent_.begin(), parent_.end(), 0U);
-    bool forward = true;
-    const auto jump = [&](ir::LabelId target, std::size_t from) {
-      const auto place = places.find(target);
-      forward = forward && place != places.end() && place->second > from;
+    // What a jump brings back counts where the loop begins, so that is gone through until nothing is new.
+    std::map<ir::LabelId, Reaching> arriving;
+    for (std::map<ir::LabelId, Reaching> before = {{0, {}}}; before != arriving;) {
+      before = arriving;
+      pass(arriving);
+    }
+  }
+
+  void pass(std::map<ir::LabelId, Reaching>& arriving) {
+    std::optional<Reaching> now = Reaching();
+    setters_.clear();
+    const auto jump = [&](ir::LabelId target) {
       if (!now) return;
       const auto known = arriving.find(target);
       if (known == arriving.end())
@@ -77,7 +81,7 @@ private:
       else
         merge(known->second, *now);
     };
-    for (std::size_t i = 0; i < list_.size() && forward; ++i) {
+    for (std::size_t i = 0; i < list_.size(); ++i) {
       if (const auto* label = std::get_if<ir::Label>(&list_[i].node)) {
         const auto other = arriving.find(label->label);
         if (other == arriving.end()) continue;
@@ -94,9 +98,9 @@ private:
         setters_[*number].push_back(i);
       }
       ir::match(
-          list_[i], [&](const ir::Branch& node) { jump(node.target, i); },
+          list_[i], [&](const ir::Branch& node) { jump(node.target); },
           [&](const ir::Jump& node) {
-            jump(node.target, i);
+            jump(node.target);
             now.reset();
           },
           [&](const ir::Return&) {
@@ -112,7 +116,6 @@ private:
                              ir::Stop, ir::OpaqueBlock, ir::Port, ir::Print> auto&) {});
     }
     if (now) atEnd(*now, left_);
-    return forward;
   }
 
   void atEnd(const Reaching& now, Setters& left) {
@@ -170,7 +173,7 @@ private:
         const auto known = names_.find(root(at + 1));
         if (known != names_.end()) continue;
         ir::Variable made;
-        made.name = nameOf(std::get<ir::Store>(list_[at].node).value, number);
+        made.name = nameOf(root(at + 1), std::get<ir::Store>(list_[at].node).value, number);
         made.role = ir::Role::Local;
         made.range = list_[at].origin.range();
         names_.emplace(root(at + 1), state_.cycle.add(std::move(made)));
@@ -183,7 +186,14 @@ private:
   }
 
   // What the value is, as far as its terms show it.
-  std::string nameOf(const ir::ExpressionPtr& value, std::uint32_t number) const {
+  std::string nameOf(std::size_t of, const ir::ExpressionPtr& value, std::uint32_t number) {
+    for (const std::size_t at : setters_[number]) { // `#1=#1+..` counts, or adds up
+      const auto* sum = std::get_if<ir::Binary>(&std::get<ir::Store>(list_[at].node).value->node);
+      if (root(at + 1) != of || sum == nullptr || sum->op != ir::BinaryOp::Add) continue;
+      const auto* same = std::get_if<ir::MachineVariable>(&bare(sum->left).node);
+      if (same == nullptr || commonNumber(same->number) != number) continue;
+      return ir::constantValue(sum->right) != nullptr ? "counter" : "sum";
+    }
     const auto* binary = std::get_if<ir::Binary>(&value->node);
     const double* by = binary == nullptr ? nullptr : ir::constantValue(binary->right);
     if (binary != nullptr && binary->op == ir::BinaryOp::Divide && by != nullptr && *by == 2) {
@@ -263,7 +273,13 @@ private:
     const std::string& name = state_.cycle.variable(host).name;
     if (name.starts_with("here_")) return false;
     if (!name.starts_with("start_")) return true;
-    bool set = false;
+    const auto sets = [](const ir::CycleStatement& one) {
+      const auto* call = std::get_if<ir::CallCycle>(&one.node);
+      const auto* measure = std::get_if<ir::Measure>(&one.node);
+      return (call != nullptr && call->setting) || (measure != nullptr && measure->setting);
+    };
+    // A loop may set it in a run before.
+    bool set = !loopLabels(list_).empty() && std::any_of(list_.begin(), list_.end(), sets);
     for (std::size_t i = from + 1; i < list_.size(); ++i) {
       bool reads = false;
       ir::eachNode(list_[i], [&](const ir::Expression& node) {
@@ -271,9 +287,7 @@ private:
         reads = reads || (use != nullptr && use->variable == id);
       });
       if (reads && set) return false;
-      const auto* call = std::get_if<ir::CallCycle>(&list_[i].node);
-      const auto* measure = std::get_if<ir::Measure>(&list_[i].node);
-      set = set || (call != nullptr && call->setting) || (measure != nullptr && measure->setting);
+      set = set || sets(list_[i]);
     }
     return true;
   }

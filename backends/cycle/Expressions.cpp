@@ -1,5 +1,6 @@
 // Values and conditions: constants get the unit of their place.
 #include "backends/cycle/State.h"
+#include "ir/Evaluate.h"
 #include "ir/Kinds.h"
 #include "support/Decimal.h"
 
@@ -21,6 +22,23 @@ std::string bracketed(const Printed& one, int least) {
   return one.text.empty() || one.binds >= least ? one.text : "(" + one.text + ")";
 }
 
+// `cos(30 deg)` of what was computed from COS[30.]. "": another number.
+std::string functionOfAngle(const ir::Constant& constant, ir::Kind want) {
+  constexpr int kQuarter = 90;
+  if (!constant.digits.empty() || (want != ir::Kind::Number && want != ir::Kind::Ratio)) return "";
+  constexpr std::size_t kShort = 6; // characters that a person writes
+  if (numberText(constant.value).size() <= kShort) return "";
+  const double value = std::abs(constant.value);
+  for (int degrees = 1; degrees < kQuarter; ++degrees)
+    for (const auto& [name, op] : {std::pair("cos", ir::UnaryOp::Cosine), std::pair("sin", ir::UnaryOp::Sine),
+                                   std::pair("tan", ir::UnaryOp::Tangent)}) {
+      const ir::Scalar made = ir::evaluate(*ir::unary(op, ir::constant(degrees)), {});
+      if (made.known() && made.value == value)
+        return fmt::format("{}{}({} deg)", constant.value < 0 ? "-" : "", name, degrees);
+    }
+  return "";
+}
+
 bool isDimension(ir::Kind kind) {
   return kind == ir::Kind::Length || kind == ir::Kind::Angle || kind == ir::Kind::Feed;
 }
@@ -31,6 +49,8 @@ public:
 
   Printed value(const ir::ExpressionPtr& expression, ir::Kind want) {
     if (const auto* constant = std::get_if<ir::Constant>(&expression->node)) {
+      if (std::string angle = functionOfAngle(*constant, want); !angle.empty())
+        return {std::move(angle), constant->value < 0 ? kProduct : kFactor};
       Printed out{literal(constant->value, want, constant->digits), kFactor};
       if (constant->value < 0) out.binds = kProduct;
       return out;
@@ -142,13 +162,28 @@ private:
                                negated->operand};
         return binaryText(plain, want);
       }
+      if (const ir::ExpressionPtr plain = withoutSign(binary.right)) {
+        const bool turned = binary.op == ir::BinaryOp::Add; // of `a + -b / 2` the difference
+        return binaryText({turned ? ir::BinaryOp::Subtract : ir::BinaryOp::Add, binary.left, plain}, want);
+      }
       const bool minus = binary.op == ir::BinaryOp::Subtract;
+      // Of `0 * pitch_x + y` the rest.
+      if (isNothing(binary.right) && !isNothing(binary.left)) return value(binary.left, kind);
+      if (isNothing(binary.left) && !isNothing(binary.right)) {
+        if (!minus) return value(binary.right, kind);
+        const std::string turned = bracketed(value(binary.right, kind), kFactor);
+        return {turned.empty() ? "" : "-" + turned, kProduct};
+      }
       const std::string a = bracketed(value(binary.left, kind), kSum);
       const std::string b = bracketed(value(binary.right, kind), minus ? kProduct : kSum);
       if (a.empty() || b.empty()) return {};
       return {a + (minus ? " - " : " + ") + b, kSum};
     }
     case ir::BinaryOp::Multiply: {
+      if (isNothing(binary.left) || isNothing(binary.right))
+        return {literal(0, isDimension(left) ? left : isDimension(right) ? right : want), kFactor};
+      if (isOne(binary.left)) return value(binary.right, want);
+      if (isOne(binary.right)) return value(binary.left, want);
       // The one that is a dimension keeps it; of two numbers the second gets that of the place.
       ir::Kind a = left, b = right;
       if (!isDimension(left) && !isDimension(right) && isDimension(want)) {
@@ -182,6 +217,31 @@ private:
     case ir::BinaryOp::RoundedModulo: break;
     }
     return refuse("a remainder, a power or bits", "the cycle language has sums, products, roots and angles");
+  }
+
+  // `b / 2` of `-b / 2`; a null pointer: no sign leads it.
+  static ir::ExpressionPtr withoutSign(const ir::ExpressionPtr& value) {
+    const auto* binary = std::get_if<ir::Binary>(&value->node);
+    if (binary == nullptr || (binary->op != ir::BinaryOp::Multiply && binary->op != ir::BinaryOp::Divide))
+      return nullptr;
+    const auto* sign = std::get_if<ir::Unary>(&binary->left->node);
+    const ir::ExpressionPtr left =
+        sign != nullptr && sign->op == ir::UnaryOp::Negate ? sign->operand : withoutSign(binary->left);
+    return left == nullptr ? nullptr : ir::binary(binary->op, left, binary->right);
+  }
+  static bool isOne(const ir::ExpressionPtr& value) {
+    const double* constant = ir::constantValue(value);
+    return constant != nullptr && *constant == 1;
+  }
+  // A product with a factor of 0. A written 0 is one that the source wants to be read.
+  static bool isNothing(const ir::ExpressionPtr& value) {
+    const auto* binary = std::get_if<ir::Binary>(&bare(value).node);
+    if (binary == nullptr || binary->op != ir::BinaryOp::Multiply) return false;
+    for (const ir::ExpressionPtr& side : {binary->left, binary->right}) {
+      const double* constant = ir::constantValue(side);
+      if ((constant != nullptr && *constant == 0) || isNothing(side)) return true;
+    }
+    return false;
   }
 
   static Printed product(const Printed& a, std::string_view sign, const Printed& b, int rightLeast) {

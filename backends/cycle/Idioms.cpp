@@ -2,6 +2,7 @@
 // control's state, the place of the probe, writes of work offsets.
 #include "backends/cycle/Idioms.h"
 #include "backends/common/Waits.h"
+#include "backends/cycle/Jumps.h"
 #include "ir/CycleNames.h"
 #include "ir/Evaluate.h"
 #include "ir/InferKinds.h"
@@ -14,6 +15,8 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <functional>
+#include <utility>
 
 namespace dotek::backends::cycle {
 
@@ -21,29 +24,6 @@ namespace {
 
 constexpr double kFirstSystem = 54, kLastSystem = 59;
 constexpr int kModalGroups = 130; // #4000 to #4130
-
-// IF A GOTO 1, IF B GOTO 2, N1 ..: one decision, `not A and B`, to go to 2.
-void joinBranches(std::vector<ir::CycleStatement>& list) {
-  for (bool again = true; again;) {
-    again = false;
-    for (std::size_t i = 0; i + 2 < list.size(); ++i) {
-      const auto* first = std::get_if<ir::Branch>(&list[i].node);
-      auto* second = std::get_if<ir::Branch>(&list[i + 1].node);
-      if (first == nullptr || second == nullptr || first->target == second->target) continue;
-      bool leads = false;
-      for (std::size_t next = i + 2; next < list.size() && !leads; ++next) {
-        const auto* label = std::get_if<ir::Label>(&list[next].node);
-        if (label == nullptr) break;
-        leads = label->label == first->target;
-      }
-      if (!leads) continue;
-      second->condition = ir::join(ir::Connective::And, ir::negate(first->condition), second->condition,
-                                   second->condition->range);
-      list.erase(list.begin() + static_cast<std::ptrdiff_t>(i));
-      again = true;
-    }
-  }
-}
 
 // ATAN[Y]/[X] that gives 0 to 360, of which the language has -180 to 180 alone.
 void nameBearings(State& state) {
@@ -188,7 +168,7 @@ private:
   }
 
   static std::optional<ir::Axis> axisOf(const ir::ExpressionPtr& value, const std::optional<int>& first) {
-    const auto* variable = std::get_if<ir::MachineVariable>(&value->node);
+    const auto* variable = std::get_if<ir::MachineVariable>(&bare(value).node);
     const double* number = variable == nullptr ? nullptr : ir::constantValue(variable->number);
     if (number == nullptr || !first) return std::nullopt;
     for (const ir::Axis axis : ir::kAxes)
@@ -197,7 +177,7 @@ private:
   }
 
   bool isLength(const ir::ExpressionPtr& value) const {
-    const auto* variable = std::get_if<ir::MachineVariable>(&value->node);
+    const auto* variable = std::get_if<ir::MachineVariable>(&bare(value).node);
     const double* number = variable == nullptr ? nullptr : ir::constantValue(variable->number);
     return number != nullptr && variables_.toolLength &&
            *number == *variables_.toolLength + static_cast<int>(ir::indexOf(ir::Axis::Z));
@@ -205,6 +185,7 @@ private:
 
   void findPlaces() {
     std::array<bool, 3> moved{};
+    const std::set<ir::LabelId> loops = loopLabels(list_);
     const bool holdsLength = !control_.withToolLength || control_.withToolLength->position;
     const auto here = [&](ir::Axis axis) {
       const std::size_t i = ir::indexOf(axis);
@@ -240,9 +221,12 @@ private:
             const auto number = numberOf(node.number);
             if (!number || *number >= 1000) moved = kAll;
           },
-          [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::ProbePower, ir::Comment, ir::Assign,
-                             ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop,
-                             ir::Alarm, ir::Port, ir::Print> auto&) {});
+          [&](const ir::Label& node) {
+            if (loops.contains(node.label)) moved = kAll; // by a run before
+          },
+          [](const ir::OneOf<ir::Jump, ir::Branch, ir::ProbePower, ir::Comment, ir::Assign, ir::Return,
+                             ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop, ir::Alarm, ir::Port,
+                             ir::Print> auto&) {});
     }
   }
 
@@ -429,6 +413,37 @@ private:
   std::optional<int> inForce_; // variable that holds the active system
 };
 
+// What the source keeps in several steps is of the kind of the first value that has one, or of what it is
+// compared with.
+void keepKinds(State& state) {
+  bool again = true;
+  const auto take = [&](ir::VariableId id, const ir::ExpressionPtr& from) {
+    ir::Variable& variable = state.cycle.variables[id];
+    if (variable.role != ir::Role::Local || variable.kind != ir::Kind::Number || isArea(state, from)) return;
+    const ir::Kind kind = kindOf(state, from);
+    if (kind != ir::Kind::Length && kind != ir::Kind::Angle) return;
+    variable.kind = kind;
+    again = true;
+  };
+  const std::function<void(const ir::ConditionPtr&)> compared = [&](const ir::ConditionPtr& condition) {
+    if (const auto* inner = std::get_if<ir::Not>(&condition->node)) return compared(inner->inner);
+    if (const auto* both = std::get_if<ir::Junction>(&condition->node)) {
+      compared(both->left);
+      return compared(both->right);
+    }
+    const auto* comparison = std::get_if<ir::Comparison>(&condition->node);
+    if (comparison == nullptr) return;
+    for (const auto& [one, other] :
+         {std::pair(comparison->left, comparison->right), std::pair(comparison->right, comparison->left)})
+      if (const auto* use = std::get_if<ir::VariableUse>(&bare(one).node)) take(use->variable, other);
+  };
+  while (std::exchange(again, false))
+    for (const ir::CycleStatement& one : state.cycle.body) {
+      if (const auto* set = std::get_if<ir::Assign>(&one.node)) take(set->variable, set->value);
+      if (const ir::ConditionPtr* condition = ir::conditionOf(one)) compared(*condition);
+    }
+}
+
 } // namespace
 
 void readIdioms(State& state) {
@@ -438,23 +453,9 @@ void readIdioms(State& state) {
   nameCommonVariables(state);
   nameBearings(state);
   idioms.offsets();
-  joinBranches(state.cycle.body);
+  straightenJumps(state);
   ir::inferKinds(state.cycle);
-  // What the source keeps in several steps is of the kind of the first value that has one.
-  for (bool again = true; again;) {
-    again = false;
-    for (const ir::CycleStatement& one : state.cycle.body) {
-      const auto* set = std::get_if<ir::Assign>(&one.node);
-      if (set == nullptr || isArea(state, set->value)) continue;
-      ir::Variable& variable = state.cycle.variables[set->variable];
-      const ir::Kind kind = kindOf(state, set->value);
-      if (variable.role != ir::Role::Local || variable.kind != ir::Kind::Number ||
-          (kind != ir::Kind::Length && kind != ir::Kind::Angle))
-        continue;
-      variable.kind = kind;
-      again = true;
-    }
-  }
+  keepKinds(state);
 }
 
 } // namespace dotek::backends::cycle

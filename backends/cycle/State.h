@@ -111,6 +111,11 @@ void nameSystems(State& state, const Checked& checked);
 
 void writeBody(State& state);
 
+// ---- Results.cpp
+
+// A variable that the source leaves is a result of the cycle.
+void writeResult(State& state, const ir::Store& node, const ir::Origin& origin);
+
 // ---- Measures.cpp
 
 // Where the probe is, or "here.x".
