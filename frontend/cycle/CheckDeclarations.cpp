@@ -164,6 +164,8 @@ void Checker::unread() {
   for (const auto& [name, symbol] : symbols_)
     if (symbol.role == Symbol::Role::Parameter && !symbol.read)
       diagnostics_.report<diag::ParameterUnread>(symbol.range, name);
+    else if (symbol.role == Symbol::Role::Local && !symbol.read && symbol.range.hasPlace())
+      diagnostics_.report<diag::NameUnread>(symbol.range, name);
 }
 
 Checker::Checker(const File& file, const SourceMap& sources, Diagnostics& diagnostics)

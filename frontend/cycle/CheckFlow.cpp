@@ -148,7 +148,6 @@ void Checker::assign(const Assign& assign, Known& known) {
     Symbol symbol;
     symbol.quantity = found;
     symbol.range = assign.name.range;
-    symbol.read = true;
     symbols_[assign.name.text] = symbol;
     known.set.insert(assign.name.text);
     return;

@@ -78,12 +78,17 @@ const Name* givenBy(const Statement& statement) {
 
 void Checker::slips(const Block& block) {
   const auto& all = block.statements;
+  means(block);
   for (std::size_t i = 0; i < all.size(); ++i) {
     neverRead(all, i);
     if (const auto* loop = std::get_if<For>(&all[i].node)) neverRuns(*loop, all[i]);
     if (const auto* loop = std::get_if<While>(&all[i].node)) neverEnds(*loop);
     eachExpression(all[i], [&](const Expression& expression) {
-      eachPart(expression, [&](const Expression& part) { oneAnswer(part); });
+      eachPart(expression, [&](const Expression& part) {
+        oneAnswer(part);
+        meanOf(part);
+        bothLimits(part);
+      });
     });
   }
 }

@@ -63,6 +63,11 @@ private:
   void neverEnds(const While& loop);
   void oneAnswer(const Expression& expression);
 
+  // ---- CheckMeans.cpp
+  void means(const Block& block); // sums in its loops
+  void meanOf(const Expression& expression);
+  void bothLimits(const Expression& expression);
+
   // ---- CheckFlow.cpp
   void block(const Block& block, Known& known);
   void statement(const Statement& statement, Known& known);

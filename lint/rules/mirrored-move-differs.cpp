@@ -44,7 +44,13 @@ void checkMacro(const gibbs::Macro& macro, const Project& project, Report& repor
     const std::size_t axis = axisOf(paths[i]);
     if (!way || axis > 1) continue;
     const gibbs::Expression& value = *paths[i].axes[axis];
-    // Towards the surface the ball stops one radius before it.
+    // Towards the surface the ball stops one radius before it. With a further term the move begins elsewhere
+    // than at 0, and the sign of the travel does not say from which side it comes.
+    const std::vector<Term> terms = termsOf(value);
+    if (std::any_of(terms.begin(), terms.end(), [&](const Term& term) {
+          return !term.name.empty() && term.name != way->field && !radii.contains(term.name);
+        }))
+      continue;
     for (const std::string& radius : radii) {
       const int sign = signOf(value, radius);
       if (signOf(value, way->field) != 1 || sign != (way->positive ? 1 : -1)) continue;

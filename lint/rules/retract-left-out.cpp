@@ -4,6 +4,7 @@
 #include "lint/Skips.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace dotek::lint::rule {
 namespace {
@@ -58,6 +59,7 @@ std::vector<Travel> travels(const std::vector<Statement>& body, const Probing& p
   bool measured = false;
   bool lifted = false;
   bool armed = false; // G66 is in force
+  bool level = false; // it has gone along X or Y at this height before
   for (std::size_t i = 0; i < body.size(); ++i) {
     // G66 only says what runs after the moves that follow, and that macro knows its own way back.
     if constexpr (std::same_as<Statement, ir::ProgramStatement>) {
@@ -78,8 +80,9 @@ std::vector<Travel> travels(const std::vector<Statement>& body, const Probing& p
     }
     const AxisSet axes = movedBy(body[i], probing);
     if (axes == 4) lifted = true;
+    const bool free = std::exchange(level, (axes & 4) == 0 && (level || axes != 0));
     if (!measured || axes == 0 || axes == 4 || goesToMeasured(body[i])) continue;
-    out.push_back({i, lifted});
+    if (lifted || !free) out.push_back({i, lifted});
     measured = false;
   }
   return out;

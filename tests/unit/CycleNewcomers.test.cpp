@@ -350,7 +350,7 @@ TEST_CASE("cycles: what hardly anybody means is a warning, once, and what looks 
                              "parameter gap  : length = 5 mm \"Gap\"\n"
                              "result    size : length        \"Size\"\n"
                              "spindle off\nprobe on\nsize = gap\nk = 0\n" +
-                             lines + "probe off\n";
+                             lines + "probe off\nif k > 90 then\n  stop \"Late\"\nend\n";
     const cycle::File file = cycle::parse(sources.add(SourceFile("one.cycle", text, Encoding::Utf8)), sources,
                                           Limits(), diagnostics);
     cycle::check(file, sources, diagnostics);
@@ -384,6 +384,23 @@ TEST_CASE("cycles: what hardly anybody means is a warning, once, and what looks 
            Lines{touch + "if side.error > -0.1 mm then\n  stop \"Far\"\nend\n", ""},
            Lines{touch + "size = side.at - side.at\n", "compared-always"},
            Lines{touch + "size = side.at - gap\n", ""},
+           Lines{touch + "if side.error > 0.1 mm and side.error < -0.1 mm then\n  stop \"Far\"\nend\n",
+                 "compared-always"},
+           Lines{touch + "if side.error < 0.1 mm or -0.1 mm < side.error then\n  stop \"Far\"\nend\n",
+                 "compared-always"},
+           Lines{touch + "if side.error > 0.1 mm or side.error < -0.1 mm then\n  stop \"Far\"\nend\n", ""},
+           Lines{touch + "if side.error > -0.1 mm and side.error < 0.1 mm then\n  stop \"Far\"\nend\n", ""},
+           Lines{touch + "touch y by gap -> far\nsize = side.at + far.at / 2\n", "mean-divisor"},
+           Lines{touch + "touch y by gap -> far\nsize = (side.at + far.at) / 3\n", "mean-divisor"},
+           Lines{touch + "touch y by gap -> far\nsize = (side.at + far.at) / 2\n", ""},
+           Lines{touch + "touch y by gap -> far\nsize = (side.at + far.at) / 4\n", ""},
+           Lines{touch + "touch y by gap -> far\nsize = side.at - far.at / 2\n", ""},
+           Lines{"sum = 0 mm\nfor i = 1 to 5\n  " + touch + "  sum = sum + side.at\nend\nsize = sum / 4\n",
+                 "mean-divisor"},
+           Lines{"sum = 0 mm\nrepeat 5 times\n  " + touch + "  sum = sum + side.at\nend\nsize = sum / 5\n",
+                 ""},
+           Lines{touch + "spare = side.at * 2\n", "name-unread"},
+           Lines{touch + "spare = side.at * 2\nsize = spare\n", ""},
        }) {
     CAPTURE(one.text);
     CHECK(warned(one.text) == one.warnings);
