@@ -187,8 +187,8 @@ std::vector<verify::Difference> compareTurns(const TargetCase& now, bool exact, 
   return found;
 }
 
-// There both sides take what they have measured for the limit itself.
-std::vector<verify::Difference> compareTies(const TargetCase& now, const Moving& moving,
+// There both sides take what they have measured for the limit itself. `exact`: OffRules::exact.
+std::vector<verify::Difference> compareTies(const TargetCase& now, const Moving& moving, bool exact,
                                             const Compare& compare) {
   constexpr double kTie = 0.003; // mm; more than a step, and than what other arithmetic or macros leave
   Grown grown(*now.questions, {}, moving);
@@ -202,6 +202,12 @@ std::vector<verify::Difference> compareTies(const TargetCase& now, const Moving&
     const bool meets = verify::meetsEach(one), meetsNext = verify::meetsEach(other);
     if (!(meets && meetsNext) && !(meets && isOfLimit(other)) && !(meetsNext && isOfLimit(one))) continue;
     const long place = meets ? turn : turn + 1;
+    bool alike = exact; // else what differs there by itself is a matter of the last digits
+    if (!exact)
+      grown.look(place, 0, [&](const verify::Record& meant, sim::World& world) {
+        alike = compare(meant, world).empty();
+      });
+    if (!alike) continue;
     grown.look(place, kTie, [&](const verify::Record& meant, sim::World& world) {
       if (counts(meant)) found = compare(meant, world);
     });
@@ -290,8 +296,8 @@ std::vector<verify::Difference> compareApart(const TargetCase& now, const Compar
 }
 
 // All of them, and one after the other.
-std::vector<verify::Difference> compareEachTie(const TargetCase& now, const Compare& compare) {
-  std::vector<verify::Difference> found = compareTies(now, kEachSurface, compare);
+std::vector<verify::Difference> compareEachTie(const TargetCase& now, bool exact, const Compare& compare) {
+  std::vector<verify::Difference> found = compareTies(now, kEachSurface, exact, compare);
   for (const auto& [touch, count, what] : measuredAlone(now)) {
     if (!found.empty()) return found;
     Moving moving{{.by = 1, .touch = touch, .count = count}, what};
@@ -299,7 +305,7 @@ std::vector<verify::Difference> compareEachTie(const TargetCase& now, const Comp
       moving.growth.by = 0;
       moving.growth.moved = {0.6, 0.8, 0};
     }
-    found = compareTies(now, moving, compare);
+    found = compareTies(now, moving, exact, compare);
   }
   return found;
 }
@@ -334,7 +340,7 @@ std::vector<verify::Difference> compareOffParts(const TargetCase& now, const Off
   found = compareApart(now, compare);
   if (found.empty()) found = compareTurns(now, false, compare);
   if (found.empty() && rules.exact) found = compareTurns(now, true, compare);
-  if (found.empty() && rules.ties) found = compareEachTie(now, compare);
+  if (found.empty() && rules.ties) found = compareEachTie(now, rules.exact, compare);
   return found;
 }
 

@@ -126,7 +126,13 @@ Record Stand::run(const sim::Bytecode& code, sim::World& world, const Entry& ent
   world.setOn(entry.probeOn);
   sim::Run run(machine, code, limits_, meaning);
   run.expectMotion();
-  run.setTie(world.tie());
+  if (world.tie() > 0) {
+    std::set<std::uint64_t> macros;
+    for (const stdlib::MacroSet* set : sets_)
+      for (const stdlib::MacroSignature& one : set->signatures)
+        macros.insert(one.program);
+    run.setTie(world.tie(), std::move(macros));
+  }
   if (passesOverAbsent_) run.passOverAbsent();
   if (!stores.empty()) run.watchWrites(stores);
   Recorder recorder(machine, world, sets_, length);

@@ -208,6 +208,12 @@ void Run::run() {
   }
 }
 
+bool Run::tiesHere() const {
+  return tie_ > 0 && machine_.hasTouched() &&
+         std::none_of(levels_.begin(), levels_.end(),
+                      [&](const Level& level) { return untied_.contains(level.routine->number); });
+}
+
 bool Run::knows(std::uint32_t cell) {
   if (cell >= machine_.layout().size() || !isUnknown(cells_[cell])) return true;
   return refuse(
@@ -281,7 +287,7 @@ template <bool kDecimal8, bool kWatched> bool Run::execute() {
   double* const cells = cells_;
   const Instruction* at = all + place_;
   std::uint64_t fuel = fuel_;
-  const double tie = kWatched && machine_.hasTouched() ? tie_ : 0.0;
+  const double tie = kWatched && tiesHere() ? tie_ : 0.0;
   const auto leave = [&] {
     place_ = static_cast<std::uint32_t>(at - all);
     machine_.frame().line = code_.lines[place_];
@@ -456,11 +462,11 @@ template <bool kDecimal8, bool kWatched> bool Run::execute() {
     case Op::SkipDelete: DOTEK_JUMP((machine_.blockDelete() >> at->detail & 1) != 0);
 #undef DOTEK_JUMP
     case Op::Test:
-      cells[at->c] =
-          (at->detail == kIsNull ? isNull(cells[at->a])
-                                 : test(static_cast<ir::Relation>(at->detail), cells[at->a], cells[at->b], tie))
-              ? 1
-              : 0;
+      cells[at->c] = (at->detail == kIsNull
+                          ? isNull(cells[at->a])
+                          : test(static_cast<ir::Relation>(at->detail), cells[at->a], cells[at->b], tie))
+                         ? 1
+                         : 0;
       break;
     case Op::And: cells[at->c] = cells[at->a] != 0 && cells[at->b] != 0 ? 1 : 0; break;
     case Op::Or: cells[at->c] = cells[at->a] != 0 || cells[at->b] != 0 ? 1 : 0; break;

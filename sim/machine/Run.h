@@ -67,8 +67,12 @@ public:
   // has ended that met nothing. The watcher outlives the run.
   void watchMisses(MissWatcher* watcher);
   // Before the run: once the probe has touched, numbers that lie no farther apart are equal where `<`, `>`,
-  // `<=` and `>=` compare them, as if what was measured fell on a limit exactly. Such a run takes longer, too.
-  void setTie(double tie) { tie_ = tie; }
+  // `<=` and `>=` compare them, as if what was measured fell on a limit exactly; not in `macros` and what
+  // they call. Such a run takes longer, too.
+  void setTie(double tie, std::set<std::uint64_t> macros) {
+    tie_ = tie;
+    untied_ = std::move(macros);
+  }
   // Before the run: M98 of a program that is not there does nothing, and the watcher hears of it; else it is
   // the control's alarm.
   void passOverAbsent() { passesOverAbsent_ = true; }
@@ -274,7 +278,9 @@ private:
     std::uint32_t place = 0; // of the instruction
     double value = 0;        // known once the next one comes
   };
+  bool tiesHere() const; // the tie holds where the run is
   double tie_ = 0;
+  std::set<std::uint64_t> untied_;           // numbers of programs
   std::vector<std::uint32_t> watchedWrites_; // by cell: the index in writes_ and 1; 0: not watched
   std::vector<std::vector<Write>> writes_;
 };

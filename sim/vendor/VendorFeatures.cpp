@@ -79,7 +79,9 @@ bool VendorRun::surface() {
     const Direction direction = directionOf(axis, way > 0 ? 1 : -1);
     Position centre;
     double ball = 0;
-    if (!touch(direction, std::abs(way), centre, stdlib::travelIsSearch(signature_, *target)) || !radius(direction, ball)) return false;
+    if (!touch(direction, std::abs(way), centre, stdlib::travelIsSearch(signature_, *target)) ||
+        !radius(direction, ball))
+      return false;
     if (missed_) return true;
     foundPosition(axis, centre[i] + direction[i] * ball, start_[i] + way);
   }

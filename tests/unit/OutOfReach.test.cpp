@@ -243,8 +243,10 @@ TEST_CASE("a block without a translation is copied with a note to its own contro
     const auto fusion = one.convert("fusion", block);
     CHECK(codesAt(fusion, Severity::Note, "post.txt", kLine).contains("opaque-block"));
     CHECK(fusion.output.find("\"" + std::string(block) + "\"") != std::string::npos);
+    // The length of the probe is what Mikroprog has by itself.
+    const bool length = std::string_view(block).starts_with("G43");
     CHECK(codesAt(one.convert("mikroprog", block), Severity::Error, "post.txt", kLine) ==
-          Codes{"opaque-block-refused"});
+          (length ? Codes{} : Codes{"opaque-block-refused"}));
   }
 }
 

@@ -81,9 +81,8 @@ public:
       return;
     }
     if (special == 28) {
-      if (!axes) return fail("inconclusive G"); // which axes a control then takes differs
       for (const char axis : {'X', 'Y', 'Z'})
-        if (value.contains(axis)) machine_[axis] = 0;
+        if (!axes || value.contains(axis)) machine_[axis] = 0; // without axes all of them
       return;
     }
     if (cycle_ != 0) {
