@@ -35,8 +35,9 @@ std::vector<std::pair<std::string, std::string>> assumptionTable() {
       {"unchecked", "checks of CycleData.mac that cannot be made: the values pass"},
       {"touch=FILE:LINE", "a move of ToolPath.mac that could be a touch and does not show it: it is one"},
       {"probe-on", "verify: another routine has switched the probe on before the cycle"},
-      {"same-axes", "A, B, C, U, V and W of a branch: the other machine has these axes, and they move there what they "
-                    "move on the machine of the source"},
+      {"same-axes",
+       "A, B, C, U, V and W of a branch: the other machine has these axes, and they move there what they "
+       "move on the machine of the source"},
       {"plain-messages", "a message that the control cannot show: accents and odd characters are dropped"},
       {"auxiliary=CODE",
        "a code that the control does not list, M41 or M100-M199: it moves no axis and changes no "

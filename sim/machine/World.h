@@ -79,8 +79,8 @@ public:
   void setDevices(Devices devices) { devices_ = std::move(devices); }
   void toolChanged(std::uint32_t number) override { tool_ = number; }
   void setPart(Part part);
-  // For programs that run in it: what they measure counts as equal to what lies no farther from it (mm), as if
-  // it fell on a limit exactly.
+  // For programs that run in it: what they measure counts as equal to what lies no farther from it (mm), as
+  // if it fell on a limit exactly.
   void setTie(double tie) { tie_ = tie; }
   double tie() const { return tie_; }
   // As at the start: the events are forgotten, the noise begins anew with `seed`.
