@@ -234,10 +234,9 @@ TEST_CASE("macrob check: calls (1.8)") {
   CHECK(program("G65 A1. B2. P1000") == ""); // P and arguments in any order
   CHECK(program("G65 X1.") == "E 2:1 call-without-program");
   CHECK(program("M98 L2") == "E 2:1 call-without-program");
-  CHECK(program("M98 Q100\nM30\nN100 G0 X1.\nM99", k31) == "");
-  CHECK(program("M98 Q100\nGOTO 9\nN100 G0 X1.\nM99\nN9 M30", k31) == ""); // and N100 runs
-  CHECK(program("M98 Q100\nM30\nN100 G0 X1.\nM99", k6m) == "E 2:1 call-without-program");
-  CHECK(program("M98 Q100\nM30\nN10 G0 X1.\nM99", k31) == "E 2:5 goto-target-missing");
+  CHECK(program("M98 Q100\nGOTO 9\nN100 G0 X1.\nM99\nN9", k31) == ""); // and N100 runs
+  CHECK(program("M98 Q100\nGOTO 9\nN100 G0 X1.\nM99\nN9", k6m) == "E 2:1 call-without-program");
+  CHECK(program("M98 Q100\nGOTO 9\nN10 G0 X1.\nM99\nN9", k31) == "E 2:5 goto-target-missing");
   CHECK(program("P9810 D5. S55.") == "W 2:1 call-words-alone");
   CHECK(program("G82 X5. P9500\nX6. P500") == "");
   CHECK(program("G65 P100 G90") == "E 2:10 no-argument");

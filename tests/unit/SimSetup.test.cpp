@@ -124,7 +124,7 @@ TEST_CASE("setup: [setup] of a job file goes before that of the machine and afte
   CHECK(has(runIn(scratch, run), "\"101\": -290"));
   CHECK(runIn(scratch, "sim down.nc --job none.toml").status == 2);
   scratch.write("p.SUF", "N10 G0 X1 Y1\nN20 M30\n");
-  CHECK(has(runIn(scratch, "sim p.SUF --job job.toml"), "--job"));
+  CHECK(has(runIn(scratch, "sim p.SUF --job job.toml"), "rapid X1.000000 Y1.000000"));
 }
 
 TEST_CASE("setup: what [setup] says of the offset of the tool in the spindle holds, and is said once") {
