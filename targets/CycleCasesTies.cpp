@@ -36,7 +36,9 @@ public:
     std::optional<long> last;
     for (const long place : places) {
       if (!at(place)) continue;
-      if (last) find(*last, place, out);
+      if (last)
+        verify::findTurns(
+            *last, place, false, [&](long steps) -> const auto& { return at(steps); }, out);
       last = place;
     }
     return out;
@@ -54,17 +56,6 @@ private:
     SourceQuestions::Ran ran = questions_.with(name_, value(steps));
     if (ran.answer == SourceQuestions::Answer::Runs && !ran.losesDigits) out = std::move(ran.record);
     return out;
-  }
-  void find(long from, long to, std::set<long>& out) {
-    const std::optional<verify::Record>&one = at(from), &other = at(to);
-    if (!one || !other || verify::sameWay(*one, *other, false)) return;
-    if (to - from <= 1) {
-      out.insert(from);
-      return;
-    }
-    const long middle = from + (to - from) / 2;
-    find(from, middle, out);
-    find(middle, to, out);
   }
 
   SourceQuestions& questions_;

@@ -128,24 +128,14 @@ public:
   template <std::size_t N> std::set<long> turns(const long (&places)[N]) {
     std::set<long> out;
     for (std::size_t i = 0; i + 1 < N; ++i)
-      turns(places[i], places[i + 1], out);
+      verify::findTurns(
+          places[i], places[i + 1], true, [&](long steps) -> const auto& { return at(steps); }, out);
     return out;
   }
   static double millimetres(long steps) { return static_cast<double>(steps) / kSteps; }
 
 private:
   static constexpr double kSteps = 2000; // each half of what a control counts: a size counts it twice
-
-  void turns(long from, long to, std::set<long>& out) {
-    if (!at(from) || !at(to) || verify::sameWay(*at(from), *at(to))) return;
-    if (to - from <= 1) {
-      out.insert(from);
-      return;
-    }
-    const long middle = from + (to - from) / 2;
-    turns(from, middle, out);
-    turns(middle, to, out);
-  }
 
   SourceQuestions& questions_;
   const verify::PartError more_;
