@@ -227,16 +227,11 @@ private:
   bool sets_ = false;   // it sets a position: of a bore, the ball walks to the middle
 };
 
-// A search, and a rapid move back on its way. Where that ends a datum decides that was set between the two.
+// A search, and a rapid move back to where it began.
 bool backAtOnce(const verify::Piece& search, const verify::Piece& back) {
-  constexpr double kBeside = 0.01; // mm
-  if (search.kind != sim::PathKind::Measuring || back.kind != sim::PathKind::Rapid) return false;
-  const Point3 way = search.to - search.from, away = back.to - back.from;
-  const double length = way.length();
-  if (length < kBeside || away.length() < kBeside) return false;
-  const Point3 direction = way * (1 / length);
-  const double along = away.dot(direction);
-  return along < 0 && (away - direction * along).length() < kBeside;
+  constexpr double kNear = 0.01; // mm
+  return search.kind == sim::PathKind::Measuring && back.kind == sim::PathKind::Rapid &&
+         (back.to - search.from).length() < kNear;
 }
 
 // What follows a search in feed begins with the path back, at the feed that the program was written with. It
